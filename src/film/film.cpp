@@ -1,0 +1,1 @@
+#include "film/film.h"

@@ -1,0 +1,32 @@
+#pragma once
+// Writing pictures: EXR scene-linear with metadata, PNG and JPEG through tone mapping. Each file is
+// written beside its name and renamed, so that a crash leaves no half file.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "film/settings.h"
+
+namespace yat {
+
+/// What goes into the header of an EXR (and, where the format can, of the others).
+struct PictureMetadata {
+  std::string scene;
+  uint64_t scene_hash = 0;
+  uint32_t seed = 0;
+  double samples_per_pixel = 0;
+  double render_seconds = 0;
+  std::string isa, version;
+};
+
+/// Whether the extension is one that write_picture knows (.exr .png .jpg .jpeg).
+bool is_picture_name(std::string_view path);
+
+/// rgb: width * height * 3, linear Rec.709. Missing folders are made. Throws ResourceError when the
+/// file cannot be written, UsageError for an unknown extension.
+void write_picture(const std::string& path, std::span<const float> rgb, uint32_t width,
+                   uint32_t height, const FilmSettings& settings, const PictureMetadata& metadata);
+
+}  // namespace yat

@@ -1,0 +1,35 @@
+#pragma once
+// What the scene's Film statement asks for, defaults filled in (lxs 4.1, 4.3, 4.4).
+
+#include <cstdint>
+#include <string>
+
+namespace yat {
+
+enum class ToneMap { kLinear, kReinhard, kAutoLinear, kMaxWhite, kContrast };
+enum class ClampMethod { kCut, kLum, kHue, kDarken };
+
+struct FilmSettings {
+  uint32_t width = 800, height = 600;  ///< full image [pixels]
+  uint32_t crop_x0 = 0, crop_x1 = 800, crop_y0 = 0,
+           crop_y1 = 600;           ///< pixels rendered, end exclusive
+  std::string filename = "luxout";  ///< base name without extension
+
+  ToneMap tone_map = ToneMap::kAutoLinear;
+  float gamma = 2.2f;  ///< display exponent
+  float linear_sensitivity = 50, linear_exposure = 1, linear_fstop = 2.8f, linear_gamma = 1;
+  float reinhard_prescale = 1, reinhard_postscale = 1, reinhard_burn = 6;
+  float contrast_ywa = 1;
+  float exposure_stops = 0;  ///< --exposure: 2^stops before tone mapping
+  ClampMethod clamp = ClampMethod::kCut;
+
+  float red[2] = {.63f, .34f}, green[2] = {.31f, .595f}, blue[2] = {.155f, .07f};  ///< xy
+  float white[2] = {.314275f, .329411f};  ///< xy; SMPTE-C by default
+
+  int32_t halt_spp = -1, halt_time = -1;  ///< haltspp, halttime [s]; -1: not given
+
+  uint32_t crop_width() const { return crop_x1 - crop_x0; }
+  uint32_t crop_height() const { return crop_y1 - crop_y0; }
+};
+
+}  // namespace yat

@@ -1,0 +1,22 @@
+// Built once per instruction set: the table of that set's kernels. Each group of kernels fills its
+// own slots (kernels/groups.h), so that a group is one translation unit.
+
+#include "kernels/groups.h"
+#include "soa/simd.h"
+
+namespace yat::YAT_ISA {
+
+#define YAT_STRING2(x) #x
+#define YAT_STRING(x) YAT_STRING2(x)
+
+const KernelTable* kernel_table() {
+  static const KernelTable table = [] {
+    KernelTable t{};
+    t.isa = YAT_STRING(YAT_ISA);
+    t.lanes = kLanes<NativeArch>;
+    return t;
+  }();
+  return &table;
+}
+
+}  // namespace yat::YAT_ISA

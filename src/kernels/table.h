@@ -1,0 +1,176 @@
+#pragma once
+// The only thing that crosses from code built for one instruction set to the rest: a table of
+// functions over columns. dispatch.h chooses one at start.
+//
+// Every kernel is noexcept, allocates nothing and knows no threads. Rows are independent
+// (invariant 1); n = 0 is fine and touches nothing. Output columns must not overlap inputs, must be
+// padded to kRowPad rows, and padding rows may be overwritten.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "scene/compiled.h"
+#include "scene/registry.h"
+#include "soa/records.h"
+
+namespace yat {
+
+/// What a call did, for lane occupancy: rows / (steps * lanes) is the mean share of active lanes.
+struct LaneCount {
+  uint64_t rows = 0;   ///< lanes that did useful work
+  uint64_t steps = 0;  ///< register-wide steps
+};
+
+/// Why a contribution or path was dropped (invariant 6).
+enum class DropCause : uint32_t {
+  kBsdf,
+  kPdf,
+  kLight,
+  kTexture,
+  kCamera,
+  kCrossings,
+  kOther,
+  kCount
+};
+inline constexpr uint32_t kDropCauses = uint32_t(DropCause::kCount);
+
+/// Dropped contributions of one worker, and the first few that can be replayed.
+struct DropLog {
+  static constexpr uint32_t kKept = 8;
+  uint64_t count[kDropCauses] = {};
+  uint32_t kept = 0;
+  struct Entry {
+    uint32_t pixel, sample, cause;
+  } entry[kKept] = {};
+  void add(DropCause cause, uint32_t pixel, uint32_t sample) noexcept {
+    ++count[uint32_t(cause)];
+    if (kept < kKept) entry[kept++] = {pixel, sample, uint32_t(cause)};
+  }
+};
+
+/// Work memory of the traversal kernels, one per worker; see KernelTable::traversal_scratch_bytes.
+struct Scratch {
+  std::byte* memory = nullptr;  ///< aligned to 64
+  size_t bytes = 0;
+};
+
+enum class SamplerKind : uint32_t { kIndependent, kSobol, kCount };
+
+/// Named random dimensions, each a pair of numbers (kernels/rng.h says how they are spread).
+/// Camera dimensions are drawn once per path, the others at every scattering vertex.
+enum class Dimension : uint32_t { kFilm, kLens, kLight, kChoice, kBsdf, kRoulette, kCount };
+
+/// How paths go, decided once per render.
+struct TransportOptions {
+  uint32_t max_depth = 16;  ///< vertex at which a path ends (lxs 4.7: 0 sees emitters only)
+  uint32_t least_depth_after_scatter = 0;  ///< `direct` integrator: max_depth, so that a path goes
+                                           ///< on through delta bounces only; else 0
+  uint32_t roulette_depth = 3;  ///< first vertex at which Russian roulette may end a path
+  uint32_t seed = 0;
+};
+
+/// Columns that a shade kernel appends to; each `*_count` is the next free row.
+struct ShadeOutput {
+  Ray<Column> rays;
+  PathState<Column> paths;
+  uint32_t path_count = 0;
+  ShadowRay<Column> shadow_rays;
+  uint32_t shadow_count = 0;
+  uint32_t* finished = nullptr;  ///< slots whose path ended here
+  uint32_t finished_count = 0;
+};
+
+/// Read-only inputs of a shade kernel: n dense rows of one bin.
+struct ShadeInput {
+  Surface<ConstColumn> surfaces;
+  PathState<ConstColumn> paths;
+  Randoms<ConstColumn> randoms;
+  LightSample<ConstColumn> lights;  ///< null columns: no light is sampled in this bin
+  ParameterView parameters;
+};
+
+enum class GeometryKind : uint32_t { kTriangleFlat, kTriangleVertex, kSphere, kPlane, kCount };
+
+struct KernelTable {
+  const char* isa;  ///< "avx512"
+  uint32_t lanes;   ///< W
+
+  // -- generate ---------------------------------------------------------------------------------
+  /// Two random numbers in [0,1) per row for `dimension` of the vertex path depth (low 16 bits of
+  /// depth; null = 0). `second` may be null.
+  void (*draw[uint32_t(SamplerKind::kCount)])(uint32_t seed, Dimension dimension,
+                                              const uint32_t* pixel, const uint32_t* sample,
+                                              const uint32_t* depth, float* first, float* second,
+                                              uint32_t n) noexcept;
+  /// Camera rays and fresh path states. film_u/v: position in the filter; lens_u/v may be null for
+  /// a pinhole ([1] is the thin lens variant).
+  void (*generate_camera_rays[2])(const SceneView&, const CameraSample<ConstColumn>&,
+                                  const float* film_u, const float* film_v, const float* lens_u,
+                                  const float* lens_v, const Ray<Column>&, const PathState<Column>&,
+                                  uint32_t n) noexcept;
+
+  // -- intersect --------------------------------------------------------------------------------
+  size_t (*traversal_scratch_bytes)(const TreeView&, uint32_t max_rays) noexcept;
+  LaneCount (*intersect_closest)(const TreeView&, const Ray<ConstColumn>&, const Hit<Column>&,
+                                 uint32_t n, const Scratch&) noexcept;
+  /// Analytic shapes: hits is in and out (the nearer one stays). `first_prim` is their first row.
+  void (*intersect_spheres)(const Rows<SphereRow>&, uint32_t first_prim, const Ray<ConstColumn>&,
+                            const Hit<Column>&, uint32_t n) noexcept;
+  void (*intersect_planes)(const Rows<PlaneRow>&, uint32_t first_prim, const Ray<ConstColumn>&,
+                           const Hit<Column>&, uint32_t n) noexcept;
+  /// occluded[i] = 1 or 0. [1] honours block_occluders, [0] takes every triangle as an occluder.
+  LaneCount (*intersect_shadow[2])(const TreeView&, const ShadowRay<ConstColumn>&,
+                                   uint32_t* occluded, uint32_t n, const Scratch&) noexcept;
+  /// Analytic occluders: occluded is in and out.
+  void (*shadow_spheres)(const Rows<SphereRow>&, const ShadowRay<ConstColumn>&, uint32_t* occluded,
+                         uint32_t n) noexcept;
+  void (*shadow_planes)(const Rows<PlaneRow>&, const ShadowRay<ConstColumn>&, uint32_t* occluded,
+                        uint32_t n) noexcept;
+
+  // -- sort -------------------------------------------------------------------------------------
+  /// bin[i] of each hit: prim_bin[prim]; 0 for a miss, and for a path at max_depth whose bin has no
+  /// bit in `emissive_bins` (bit b: bin b emits; at most 64 bins).
+  void (*classify_hits)(const uint32_t* prim_bin, uint64_t emissive_bins, uint32_t max_depth,
+                        const Hit<ConstColumn>&, const uint32_t* depth, uint32_t* bin,
+                        uint32_t n) noexcept;
+
+  // -- shade ------------------------------------------------------------------------------------
+  /// Surfaces and path states of rows order[0..n), dense.
+  void (*make_surfaces[uint32_t(GeometryKind::kCount)])(
+      const SceneView&, const uint32_t* order, const Ray<ConstColumn>&, const Hit<ConstColumn>&,
+      const PathState<ConstColumn>&, const Surface<Column>&, const PathState<Column>&,
+      uint32_t n) noexcept;
+  /// Adds emission seen at surfaces with a light row, MIS-weighted against light sampling.
+  void (*add_emission)(const SceneView&, const Surface<ConstColumn>&, const PathState<ConstColumn>&,
+                       const SampleSum<Column>&, DropLog&, uint32_t n) noexcept;
+  /// One light per surface. [k < LightKind::kCount]: scenes whose lights are all of kind k;
+  /// [kCount]: any mixture.
+  void (*sample_lights[uint32_t(LightKind::kCount) + 1])(const SceneView&,
+                                                         const Surface<ConstColumn>&,
+                                                         const Randoms<ConstColumn>&,
+                                                         const LightSample<Column>&,
+                                                         uint32_t n) noexcept;
+  /// Direct light (if input.lights is given) and the next ray.
+  void (*shade[kMaterialKinds])(const ShadeInput&, const TransportOptions&, ShadeOutput&, DropLog&,
+                                uint32_t n) noexcept;
+
+  // -- accumulate -------------------------------------------------------------------------------
+  /// Adds shadow rays that are not occluded to their samples. A slot occurs at most once per call.
+  void (*add_unoccluded)(const ShadowRay<ConstColumn>&, const uint32_t* occluded,
+                         const SampleSum<Column>&, uint32_t n) noexcept;
+
+  // -- for tests and benchmarks: the BSDF alone, per material, in the local frame (z = normal) ---
+  struct BsdfBatch {
+    const float *wo_x, *wo_y, *wo_z;  ///< unit, towards the viewer
+    float *wi_x, *wi_y, *wi_z;        ///< unit, towards the light: in for evaluate, out for sample
+    const float *u_lobe, *u, *v;      ///< in [0,1), sample only
+    const uint32_t* parameter;        ///< parameter rows
+    float *f_r, *f_g, *f_b;           ///< evaluate: f; sample: f |cos| / pdf (weight)
+    float* pdf;                       ///< solid angle; 0 for delta lobes
+  };
+  void (*bsdf_evaluate[kMaterialKinds])(const ParameterView&, const BsdfBatch&,
+                                        uint32_t n) noexcept;
+  void (*bsdf_sample[kMaterialKinds])(const ParameterView&, const BsdfBatch&, uint32_t n) noexcept;
+};
+
+}  // namespace yat

@@ -1,0 +1,76 @@
+#pragma once
+// Description -> Scene: everything that rendering needs, in columns.
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "film/settings.h"
+#include "kernels/table.h"
+#include "scene/compiled.h"
+#include "scene/description.h"
+#include "scene/tree_build.h"
+
+namespace yat {
+
+/// Rows of the scene that take the same way through the stages. Bin 0 is for paths that have ended.
+struct Bin {
+  GeometryKind geometry = GeometryKind::kTriangleFlat;
+  MaterialKind material = MaterialKind::kMatte;
+  bool emissive = false;
+  uint64_t primitives = 0;  ///< rows of the scene in this bin
+};
+inline constexpr uint32_t kMaxBins = 64;  ///< 4 geometry kinds, 64 material kinds: in practice < 20
+
+struct CompileOptions {
+  uint32_t block_width = 16;  ///< lanes of the kernels that will run: width of the tree's blocks
+  uint32_t width = 0, height = 0;  ///< --resolution; 0: as the film says
+  float crop[4] = {0, 1, 0, 1};    ///< --crop, fractions x0 x1 y0 y1; used if crop_given
+  bool crop_given = false;
+  bool strict_kd_tree = false;
+};
+
+/// The compiled scene: owns all columns.
+struct Scene {
+  glm::dvec3 center{0.0};  ///< world position of the scene-space origin
+  FilmSettings film;
+  int32_t max_depth = 16;    ///< from SurfaceIntegrator
+  bool direct_only = false;  ///< SurfaceIntegrator "directlighting"
+  uint64_t hash = 0;         ///< of the scene text
+
+  RowTable<TriangleRow> triangles;
+  RowTable<TriangleVertexRow> triangle_vertices;
+  RowTable<SphereRow> spheres;
+  RowTable<PlaneRow> planes;
+  AlignedArray<uint32_t> prim_bin;
+  Tree tree;
+  RowTable<LightRow> lights;
+  RowTable<LightChoice> light_choice;
+  std::array<AlignedArray<uint32_t>, kMaterialKinds> parameters;  ///< row_words<its record> per row
+  std::array<uint32_t, kMaterialKinds> parameter_rows{};
+  AlignedArray<float> filter_marginal, filter_conditional, filter_sign;
+  CameraView camera{};
+  FilterView filter{};
+  std::vector<Bin> bins;  ///< bins[0] is the ended bin
+  uint32_t light_kinds = 0;
+  bool all_occlude = true;
+  bool thin_lens = false;
+  uint32_t shapes_read = 0, degenerate_triangles = 0;
+
+  /// Views into this object; valid while it lives and is not moved.
+  SceneView view() const;
+  size_t bytes() const;
+};
+
+/// Builds the scene. Data files (PLY, images) are looked up from description.directory. Throws
+/// Error when no picture can come of it (no film size, nothing to see and no light, ...);
+/// everything else that cannot be used is reported once and left out or replaced as
+/// docs/scene-format.md says.
+Scene compile_scene(const Description& description, const CompileOptions& options, ThreadPool& pool,
+                    Diagnostics& diagnostics);
+
+}  // namespace yat

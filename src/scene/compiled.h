@@ -1,0 +1,176 @@
+#pragma once
+// What kernels read: plain views of the compiled scene. Rows, not pointers; read-only while
+// rendering; no containers here, so that kernel sources may include it.
+//
+// Primitive rows: triangles first, then spheres, then planes:
+//   [0, triangles)  [triangles, + spheres)  [.., + planes)
+
+#include <cstdint>
+
+#include "soa/columns.h"
+#include "soa/fields.h"
+
+namespace yat {
+
+// ---- Geometry --------------------------------------------------------------------------------
+
+/// A triangle as shading reads it: one cache line. Vertex order makes (p1-p0)x(p2-p0) the outside.
+template <template <class> class Of>
+struct TriangleRow {
+  Of<float> p0_x, p0_y, p0_z, p1_x, p1_y, p1_z, p2_x, p2_y, p2_z;  ///< scene space [m]
+  Of<float> extent;        ///< largest |coordinate| of the three vertices [m]: scale of rounding
+  Of<uint32_t> parameter;  ///< row of its material kind's parameter table
+  Of<uint32_t> light;      ///< row of the light table, or kNone
+  YAT_FIELDS(p0_x, p0_y, p0_z, p1_x, p1_y, p1_z, p2_x, p2_y, p2_z, extent, parameter, light)
+};
+static_assert(all_fields_listed<TriangleRow>);
+
+/// Vertex normals and texture coordinates of a triangle; read only in bins that have them.
+template <template <class> class Of>
+struct TriangleVertexRow {
+  Of<float> n0_x, n0_y, n0_z, n1_x, n1_y, n1_z, n2_x, n2_y, n2_z;  ///< unit, on the outside's side
+  Of<float> u0, v0, u1, v1, u2, v2;
+  YAT_FIELDS(n0_x, n0_y, n0_z, n1_x, n1_y, n1_z, n2_x, n2_y, n2_z, u0, v0, u1, v1, u2, v2)
+};
+static_assert(all_fields_listed<TriangleVertexRow>);
+
+/// A whole sphere. Normals point away from the centre, or towards it where `inward` is 1.
+template <template <class> class Of>
+struct SphereRow {
+  Of<float> center_x, center_y, center_z, radius;  ///< scene space [m], radius > 0
+  Of<uint32_t> inward;
+  Of<uint32_t> parameter, light;
+  Of<uint32_t> occludes;  ///< 1: stops shadow rays; 0: see-through (null material)
+  YAT_FIELDS(center_x, center_y, center_z, radius, inward, parameter, light, occludes)
+};
+static_assert(all_fields_listed<SphereRow>);
+
+/// An infinite plane: points p with dot(normal, p) = distance. Never a light.
+template <template <class> class Of>
+struct PlaneRow {
+  Of<float> normal_x, normal_y, normal_z, distance;  ///< unit normal; scene space [m]
+  Of<uint32_t> parameter;
+  Of<uint32_t> occludes;
+  YAT_FIELDS(normal_x, normal_y, normal_z, distance, parameter, occludes)
+};
+static_assert(all_fields_listed<PlaneRow>);
+
+/// Up to eight boxes and what is in them. 256 bytes, aligned to 64.
+/// child[i]: bit 31 set = leaf: low 31 bits are (first block << 5 | blocks - 1), at most 32 blocks;
+/// bit 31 clear = node row; kNone = no child (its box is empty: min > max, so that no ray enters).
+struct alignas(64) TreeNode {
+  float min_x[8], min_y[8], min_z[8], max_x[8], max_y[8], max_z[8];  ///< rounded outwards [m]
+  uint32_t child[8];
+  uint8_t order[8]
+               [3];  ///< per direction octant (bit 0: x < 0, 1: y < 0, 2: z < 0): eight 3-bit child
+                     ///< indices, nearest first, child k in bits 3k..3k+2 of the little-endian 24
+  uint8_t unused[8];
+};
+static_assert(sizeof(TreeNode) == 256);
+
+/// The tree over all triangles. Blocks hold `block_width` triangles as columns of block_width
+/// floats: x0 y0 z0 x1 y1 z1 x2 y2 z2, then the primitive rows (uint32, kNone and NaN vertices in
+/// unused places). Node 0 is the root; node_count = 0 means there are no triangles.
+struct TreeView {
+  const TreeNode* nodes = nullptr;
+  const float* blocks = nullptr;              ///< block b starts at b * block_width * 10
+  const uint32_t* block_occluders = nullptr;  ///< bit k of word b: triangle k stops shadow rays
+  uint32_t node_count = 0;
+  uint32_t block_count = 0;
+  uint32_t block_width = 16;  ///< 4, 8 or 16
+  uint32_t max_depth = 0;     ///< nodes on the longest way from the root to a leaf
+  float min[3] = {0, 0, 0}, max[3] = {0, 0, 0};  ///< bounds of all triangles
+};
+
+struct GeometryView {
+  TreeView tree;
+  Rows<TriangleRow> triangles;
+  Rows<TriangleVertexRow> triangle_vertices;  ///< count = triangles, or 0 if no mesh has them
+  Rows<SphereRow> spheres;
+  Rows<PlaneRow> planes;
+  const uint32_t* prim_bin = nullptr;  ///< per primitive row: its bin (Plan)
+  bool all_occlude = true;             ///< no see-through triangle: shadow rays need no mask
+};
+
+// ---- Lights ----------------------------------------------------------------------------------
+
+enum class LightKind : uint32_t { kTriangle, kSphere, kPoint, kDistant, kCount };
+
+/// One light: one emissive triangle, a sphere, a point, a direction. Fields by kind:
+///   triangle  a = p0, b = p1 - p0, c = p2 - p0 (b x c points where it shines), extra = area [m2]
+///   sphere    a = centre, extra = radius, b_x = 1 if it shines inwards
+///   point     a = position; radiance holds intensity [W/sr]
+///   distant   a = unit direction towards the light; radiance holds the irradiance on a surface
+///             that faces it (theta 0), or radiance of a disc with cos(theta) in extra < 1
+template <template <class> class Of>
+struct LightRow {
+  Of<float> a_x, a_y, a_z, b_x, b_y, b_z, c_x, c_y, c_z;
+  Of<float> extra;
+  Of<float> radiance_r, radiance_g, radiance_b;  ///< linear Rec.709
+  Of<float> probability;                         ///< with which sample_lights chooses this row
+  Of<uint32_t> kind;                             ///< LightKind
+  YAT_FIELDS(a_x, a_y, a_z, b_x, b_y, b_z, c_x, c_y, c_z, extra, radiance_r, radiance_g, radiance_b,
+             probability, kind)
+};
+static_assert(all_fields_listed<LightRow>);
+
+/// Alias table entry (Walker 1977, Vose 1991): of n equal intervals, interval i gives row i below
+/// `threshold`, row `other` above.
+template <template <class> class Of>
+struct LightChoice {
+  Of<float> threshold;
+  Of<uint32_t> other;
+  YAT_FIELDS(threshold, other)
+};
+static_assert(all_fields_listed<LightChoice>);
+
+struct LightView {
+  Rows<LightRow> rows;
+  Rows<LightChoice> choice;
+  uint32_t kinds = 0;  ///< bit k set: LightKind k is present
+};
+
+// ---- Camera ----------------------------------------------------------------------------------
+
+/// A perspective camera as an affine map: the direction of raster position (x, y), in pixels from
+/// the top left of the full image, is normalize(corner + x * dx + y * dy).
+struct CameraView {
+  float origin[3];                ///< scene space [m]
+  float corner[3], dx[3], dy[3];  ///< scene space; forward component of corner is 1
+  float forward[3];               ///< unit view axis
+  float lens_x[3], lens_y[3];     ///< lens axes times radius [m]; 0 for a pinhole
+  float focal_distance;           ///< depth of the plane of focus [m]
+  float near_depth, far_depth;    ///< hither and yon, along the view axis [m]
+};
+
+/// Pixel filter as a table for importance sampling: 2 x 2D inverse distribution, see
+/// kernels/camera.h. Offsets in pixels from the pixel centre.
+struct FilterView {
+  const float* marginal = nullptr;  ///< kFilterBins + 1 cumulative values over y, 0..1
+  const float* conditional =
+      nullptr;                  ///< kFilterBins rows of kFilterBins + 1 cumulative values over x
+  const float* sign = nullptr;  ///< kFilterBins^2: weight of a sample in the cell (1 where >= 0)
+  float radius_x = 0.5f, radius_y = 0.5f;
+  bool box = true;  ///< uniform over the radius: no table needed
+};
+inline constexpr uint32_t kFilterBins = 64;
+
+// ---- Everything ------------------------------------------------------------------------------
+
+/// A parameter table of one material kind; its record type is the kind's (kernels/materials).
+struct ParameterView {
+  const uint32_t* words = nullptr;
+  uint32_t count = 0;
+};
+
+inline constexpr uint32_t kMaxMaterialKinds = 64;
+
+struct SceneView {
+  GeometryView geometry;
+  LightView lights;
+  CameraView camera;
+  FilterView filter;
+  ParameterView parameters[kMaxMaterialKinds];  ///< indexed by MaterialKind
+};
+
+}  // namespace yat

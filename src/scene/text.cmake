@@ -1,0 +1,1 @@
+target_sources(yat_scene PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/parse.cpp)

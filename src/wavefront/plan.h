@@ -1,0 +1,50 @@
+#pragma once
+// What will run for a scene: decided once, from what the scene holds. A stage with no producer is
+// not in the loop (invariant 7).
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernels/table.h"
+#include "scene/compile.h"
+
+namespace yat {
+
+enum class Integrator { kPath, kDirect };
+
+/// What is done with the rows of one bin.
+struct BinPlan {
+  Bin bin;
+  bool emission = false;       ///< rows have a light row: add_emission runs
+  bool sample_lights = false;  ///< the scene has lights and the material is not delta
+  bool draw_lobe = false;
+  bool draw_direction = false;
+};
+
+struct Plan {
+  const KernelTable* kernels = nullptr;
+  SamplerKind sampler = SamplerKind::kSobol;
+  TransportOptions transport;
+  std::vector<BinPlan> bins;  ///< parallel to Scene::bins; [0] is the ended bin
+  uint64_t emissive_bins = 0;
+  bool thin_lens = false;
+  bool triangles = false, spheres = false, planes = false;  ///< which intersect stages run
+  bool shadow_mask = false;   ///< some triangle is see-through: the masked any-hit kernel
+  uint32_t light_kernel = 0;  ///< index into KernelTable::sample_lights
+  bool lights = false;
+};
+
+struct PlanOptions {
+  Integrator integrator = Integrator::kPath;
+  SamplerKind sampler = SamplerKind::kSobol;
+  uint32_t max_depth = 16;
+  uint32_t seed = 0;
+};
+
+Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions& options);
+
+/// One line per stage and kernel that will run, then what is skipped and why.
+std::string describe_plan(const Plan& plan, const Scene& scene);
+
+}  // namespace yat
