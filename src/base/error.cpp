@@ -68,6 +68,10 @@ void Diagnostics::fail(SourceLoc loc, std::string_view message) const {
   throw Error(format(Severity::kError, loc, message));
 }
 
+std::string Diagnostics::place(SourceLoc loc) const {
+  return fmt::format("{}:{}:{}", file_name(loc.file), loc.line, loc.column);
+}
+
 void Diagnostics::flush_repeats() {
   // In a fixed order, so that two runs say the same.
   std::vector<const Repeat*> repeats;
@@ -81,30 +85,55 @@ void Diagnostics::flush_repeats() {
   said_.clear();
 }
 
+std::string quote(std::string_view text) {
+  constexpr size_t kLongest = 200;
+  std::string out = "\"";
+  for (const char c : text.substr(0, kLongest)) {
+    if (c == '\n')
+      out += "\\n";
+    else if (c == '\t')
+      out += "\\t";
+    else if (c == '\r')
+      out += "\\r";
+    else if (static_cast<unsigned char>(c) < 32 || c == 127)
+      out += fmt::format("\\{:03}", int(static_cast<unsigned char>(c)));
+    else
+      out += c;
+  }
+  if (text.size() > kLongest) out += "...";
+  return out + "\"";
+}
+
 std::string_view nearest_name(std::string_view name,
                               const std::vector<std::string_view>& candidates) {
-  // Costs in halves: a change of case 1, anything else 2.
+  constexpr size_t kLongest = 64;
+  if (name.size() > kLongest) return {};
+  // Costs in halves: a change of case 1, anything else 2, two letters exchanged as well (the edit
+  // distance of Damerau 1964 in its optimal string alignment form).
   const auto distance = [](std::string_view a, std::string_view b) {
-    std::vector<int> row(b.size() + 1);
-    for (size_t j = 0; j <= b.size(); ++j) row[j] = int(2 * j);
+    const size_t width = b.size() + 1;
+    std::vector<int> table((a.size() + 1) * width);
+    const auto at = [&](size_t i, size_t j) -> int& { return table[i * width + j]; };
+    for (size_t i = 0; i <= a.size(); ++i) at(i, 0) = int(2 * i);
+    for (size_t j = 0; j <= b.size(); ++j) at(0, j) = int(2 * j);
     for (size_t i = 1; i <= a.size(); ++i) {
-      int diagonal = row[0];
-      row[0] = int(2 * i);
       for (size_t j = 1; j <= b.size(); ++j) {
         const auto x = static_cast<unsigned char>(a[i - 1]),
                    y = static_cast<unsigned char>(b[j - 1]);
         const int change = x == y ? 0 : std::tolower(x) == std::tolower(y) ? 1 : 2;
-        const int best = std::min({diagonal + change, row[j] + 2, row[j - 1] + 2});
-        diagonal = row[j];
-        row[j] = best;
+        int best = std::min({at(i - 1, j - 1) + change, at(i - 1, j) + 2, at(i, j - 1) + 2});
+        if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+          best = std::min(best, at(i - 2, j - 2) + 2);
+        at(i, j) = best;
       }
     }
-    return row[b.size()];
+    return at(a.size(), b.size());
   };
   std::string_view best;
   // A third of the letters may differ; a name of other letters is a guess, not a suggestion.
   int best_distance = int(std::max<size_t>(2, name.size() / 3 * 2)) + 1;
   for (std::string_view candidate : candidates) {
+    if (candidate.size() > kLongest) continue;
     const int d = distance(name, candidate);
     if (d < best_distance) {
       best_distance = d;
@@ -116,7 +145,7 @@ std::string_view nearest_name(std::string_view name,
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& candidates) {
   const std::string_view near = nearest_name(name, candidates);
-  return near.empty() ? std::string() : fmt::format(" (did you mean \"{}\"?)", near);
+  return near.empty() ? std::string() : fmt::format(" (did you mean {}?)", quote(near));
 }
 
 }  // namespace yat

@@ -64,6 +64,9 @@ class Diagnostics {
   /// An error that ends the work: throws Error with the formatted line.
   [[noreturn]] void fail(SourceLoc loc, std::string_view message) const;
 
+  /// "file:line:column", to name a second place in a message.
+  std::string place(SourceLoc loc) const;
+
   /// "file:line:column: severity: message" (without a place: "severity: message").
   std::string format(Severity severity, SourceLoc loc, std::string_view message) const;
 
@@ -85,8 +88,12 @@ class Diagnostics {
   uint64_t errors_ = 0, warnings_ = 0;
 };
 
+/// `"text"` on one line for a message: control characters as in scene strings, long text shortened.
+std::string quote(std::string_view text);
+
 /// The candidate nearest to `name` in edit distance (case counts half), or empty when none is near
-/// enough to be what was meant.
+/// enough to be what was meant. Names of more than 64 bytes are not looked for: the cost is
+/// quadratic.
 std::string_view nearest_name(std::string_view name,
                               const std::vector<std::string_view>& candidates);
 

@@ -19,7 +19,9 @@ Description parse_scene(std::string_view text, const std::string& name,
                         const std::string& directory, Diagnostics& diagnostics,
                         bool may_include = true);
 
-/// The description as .lxs text that parses to the same description.
+/// The description (as the two functions above make it) as .lxs text that parses to the same rows
+/// and parameters, in one file and without blocks that do nothing. Only names may differ: where two
+/// definitions had one name each gets its own, and an inline Material gets one.
 std::string print_description(const Description& description);
 
 }  // namespace yat

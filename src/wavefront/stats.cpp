@@ -1,1 +1,1 @@
-#include "base/stats.h"
+#include "wavefront/render.h"
