@@ -41,8 +41,8 @@ inline std::vector<const IsaEntry*> isas_here() {
 
 #define YAT_INSTANTIATE_PER_ISA(Fixture)                                                  \
   INSTANTIATE_TEST_SUITE_P(Isa, Fixture, testing::ValuesIn(yat::isas_here()),             \
-                           [](const testing::TestParamInfo<const yat::IsaEntry*>& info) { \
-                             return std::string(info.param->name);                        \
+                           [](const testing::TestParamInfo<const yat::IsaEntry*>& entry) { \
+                             return std::string(entry.param->name);                        \
                            })
 
 /// Every count at which a kernel's tail can go wrong: 0 to 3 W + 1.

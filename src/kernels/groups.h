@@ -3,4 +3,13 @@
 
 #include "kernels/table.h"
 
-namespace yat::YAT_ISA {}  // namespace yat::YAT_ISA
+namespace yat::YAT_ISA {
+
+void fill_generate(KernelTable& table);    ///< draw, camera rays
+void fill_surface(KernelTable& table);     ///< hits -> bins, surfaces; emission
+void fill_light(KernelTable& table);       ///< light sampling
+void fill_shade(KernelTable& table);       ///< shading and the BSDF batches, per material
+void fill_accumulate(KernelTable& table);  ///< shadow rays -> samples
+void fill_traverse(KernelTable& table);
+
+}  // namespace yat::YAT_ISA

@@ -14,6 +14,12 @@ const KernelTable* kernel_table() {
     KernelTable t{};
     t.isa = YAT_STRING(YAT_ISA);
     t.lanes = kLanes<NativeArch>;
+    fill_generate(t);
+    fill_surface(t);
+    fill_light(t);
+    fill_shade(t);
+    fill_accumulate(t);
+    fill_traverse(t);
     return t;
   }();
   return &table;

@@ -170,6 +170,9 @@ struct SceneView {
   LightView lights;
   CameraView camera;
   FilterView filter;
+  /// Of a sphere about the scene-space origin that holds the camera and everything but planes [m]:
+  /// shadow rays to distant lights end far outside it.
+  float radius = 1;
   ParameterView parameters[kMaxMaterialKinds];  ///< indexed by MaterialKind
 };
 

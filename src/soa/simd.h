@@ -123,6 +123,18 @@ YAT_INLINE xsimd::batch<T, A> gather_word(const T* p, const UInt<A>& index) {
 }
 }  // namespace detail
 
+}  // namespace yat::YAT_ISA
+
+#include "soa/simd_rows.h"
+
+namespace yat::YAT_ISA {
+
+/// The 32 bits of each lane in reverse order.
+template <class A>
+YAT_INLINE UInt<A> reverse_bits(const UInt<A>& x) {
+  return detail::reverse_word_bits<A>(x);
+}
+
 /// W rows of columns, from row `first` on.
 template <class A, template <template <class> class> class Record, template <class> class Shape>
 YAT_INLINE Record<Lanes<A>::template Of> load(const Record<Shape>& columns, uint32_t first) {
@@ -152,11 +164,36 @@ YAT_INLINE Record<Lanes<A>::template Of> gather(const Record<Shape>& columns,
 template <class A, template <template <class> class> class Record>
 YAT_INLINE Record<Lanes<A>::template Of> gather(const Rows<Record>& rows, const UInt<A>& index) {
   Record<Lanes<A>::template Of> out;
+#if defined(YAT_HAVE_QUADS)
+  Float<A> word[field_count<Record>];
+  detail::load_rows<A, row_words<Record>, field_count<Record>>(rows.words, index, word);
+  for_each_field(
+      [&](auto field, auto& to) {
+        using T = typename std::remove_reference_t<decltype(to)>::value_type;
+        to = xsimd::bitwise_cast<T>(word[field]);
+      },
+      out);
+#else
   const UInt<A> base = index * UInt<A>(row_words<Record>);
   for_each_field(
       [&](auto field, auto& to) {
         using T = typename std::remove_reference_t<decltype(to)>::value_type;
         to = detail::gather_word<A, T>(reinterpret_cast<const T*>(rows.words) + field, base);
+      },
+      out);
+#endif
+  return out;
+}
+
+/// Row `row` of a row table in every lane.
+template <class A, template <template <class> class> class Record>
+YAT_INLINE Record<Lanes<A>::template Of> broadcast(const Rows<Record>& rows, uint32_t row) {
+  Record<Lanes<A>::template Of> out;
+  const uint32_t* words = rows.words + size_t(row) * row_words<Record>;
+  for_each_field(
+      [&](auto field, auto& to) {
+        using T = typename std::remove_reference_t<decltype(to)>::value_type;
+        to = xsimd::bitwise_cast<T>(UInt<A>(words[field]));
       },
       out);
   return out;
@@ -187,10 +224,55 @@ YAT_INLINE void store(const Record<Lanes<A>::template Of>& rows, const Record<Co
       columns);
 }
 
+#if defined(__AVX2__) || defined(__SSSE3__)
+/// For every 8-bit mask, the numbers of its set bits in front, then 0.
+struct PackTable {
+  uint8_t lane[256][8];
+};
+constexpr PackTable make_pack_table() {
+  PackTable table{};
+  for (uint32_t mask = 0; mask < 256; ++mask)
+    for (uint32_t bit = 0, count = 0; bit < 8; ++bit)
+      if (mask >> bit & 1) table.lane[mask][count++] = uint8_t(bit);
+  return table;
+}
+alignas(64) inline constexpr PackTable kPackTable = make_pack_table();
+/// The same for 4 lanes, as byte numbers for a byte shuffle.
+struct PackTable4 {
+  uint8_t byte[16][16];
+};
+constexpr PackTable4 make_pack_table4() {
+  PackTable4 table{};
+  for (uint32_t mask = 0; mask < 16; ++mask)
+    for (uint32_t k = 0; k < 16; ++k)
+      table.byte[mask][k] = uint8_t(make_pack_table().lane[mask][k / 4] * 4 + k % 4);
+  return table;
+}
+alignas(64) inline constexpr PackTable4 kPackTable4 = make_pack_table4();
+#endif
+
 /// Lanes of `v` where `m` holds, packed to the front in lane order; the rest is arbitrary.
+/// By table where there is no instruction for it: xsimd's general form computes the shuffle.
 template <class A, class T>
 YAT_INLINE xsimd::batch<T, A> pack_left(const xsimd::batch<T, A>& v, const Mask<A>& m) {
-  return xsimd::compress(v, xsimd::batch_bool_cast<T>(m));
+#if defined(__AVX2__)
+  if constexpr (kLanes<A> == 8 && sizeof(T) == 4) {
+    const __m256i lanes = _mm256_cvtepu8_epi32(
+        _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kPackTable.lane[mask_bits<A>(m)])));
+    const UInt<A> packed(
+        _mm256_permutevar8x32_epi32(__m256i(xsimd::bitwise_cast<uint32_t>(v)), lanes));
+    return xsimd::bitwise_cast<T>(packed);
+  } else
+#endif
+#if defined(__SSSE3__)
+      if constexpr (kLanes<A> == 4 && sizeof(T) == 4) {
+    const __m128i bytes =
+        _mm_load_si128(reinterpret_cast<const __m128i*>(kPackTable4.byte[mask_bits<A>(m)]));
+    const UInt<A> packed(_mm_shuffle_epi8(__m128i(xsimd::bitwise_cast<uint32_t>(v)), bytes));
+    return xsimd::bitwise_cast<T>(packed);
+  } else
+#endif
+    return xsimd::compress(v, xsimd::batch_bool_cast<T>(m));
 }
 
 /// Appends the active lanes at `column[row...]`, in lane order. Writes a whole register: the
@@ -212,6 +294,10 @@ YAT_INLINE void store_packed(const Record<Lanes<A>::template Of>& rows, const Ma
 template <class A, class T>
 YAT_INLINE void scatter(const xsimd::batch<T, A>& v, const UInt<A>& index, const Mask<A>& active,
                         T* column) {
+#if defined(__AVX512F__)
+  const UInt<A> word = xsimd::bitwise_cast<uint32_t>(v);
+  _mm512_mask_i32scatter_epi32(column, __mmask16(mask_bits<A>(active)), index, word, 4);
+#else
   alignas(64) T value[kLanes<A>];
   alignas(64) uint32_t at[kLanes<A>];
   v.store_aligned(value);
@@ -220,12 +306,18 @@ YAT_INLINE void scatter(const xsimd::batch<T, A>& v, const UInt<A>& index, const
     const uint32_t lane = uint32_t(__builtin_ctz(bits));
     column[at[lane]] = value[lane];
   }
+#endif
 }
 
 /// Adds active lanes of `v` to column[index]. Active indices must differ.
 template <class A>
 YAT_INLINE void scatter_add(const Float<A>& v, const UInt<A>& index, const Mask<A>& active,
                             float* column) {
+#if defined(__AVX512F__)
+  const __mmask16 m = __mmask16(mask_bits<A>(active));
+  const __m512 old = _mm512_mask_i32gather_ps(_mm512_setzero_ps(), m, index, column, 4);
+  _mm512_mask_i32scatter_ps(column, m, index, _mm512_add_ps(old, v), 4);
+#else
   alignas(64) float value[kLanes<A>];
   alignas(64) uint32_t at[kLanes<A>];
   v.store_aligned(value);
@@ -234,6 +326,7 @@ YAT_INLINE void scatter_add(const Float<A>& v, const UInt<A>& index, const Mask<
     const uint32_t lane = uint32_t(__builtin_ctz(bits));
     column[at[lane]] += value[lane];
   }
+#endif
 }
 
 }  // namespace yat::YAT_ISA

@@ -1,0 +1,33 @@
+#pragma once
+// The draw kernels: columns of random numbers for one named dimension (kernels/rng_words.h).
+
+#include "kernels/rng_words.h"
+#include "kernels/table.h"
+#include "soa/simd.h"
+
+namespace yat::YAT_ISA {
+
+/// The top 24 bits as a number in [0, 1): all of them representable, none rounds to 1.
+template <class A>
+YAT_INLINE Float<A> unit_float(const UInt<A>& word) {
+  return xsimd::to_float(xsimd::bitwise_cast<int32_t>(word >> 8)) * Float<A>(0x1p-24f);
+}
+
+template <class A, SamplerKind kSampler>
+void draw(uint32_t seed, Dimension dimension, const uint32_t* pixel, const uint32_t* sample,
+          const uint32_t* depth, float* first, float* second, uint32_t n) noexcept {
+  for (uint32_t row = 0; row < n; row += kLanes<A>) {
+    const UInt<A> vertex = depth ? load<A>(depth, row) & UInt<A>(0xffffu) : UInt<A>(0u);
+    const UInt<A> key = random_key(seed, uint32_t(dimension), load<A>(pixel, row), vertex);
+    const UInt<A> index = load<A>(sample, row);
+    WordPair<UInt<A>> words;
+    if constexpr (kSampler == SamplerKind::kSobol)
+      words = sobol_words(key, index, [](const UInt<A>& x) { return reverse_bits<A>(x); });
+    else
+      words = independent_words(key, index);
+    store<A>(unit_float<A>(words.first), first, row);
+    if (second) store<A>(unit_float<A>(words.second), second, row);
+  }
+}
+
+}  // namespace yat::YAT_ISA

@@ -1,0 +1,89 @@
+#pragma once
+// Counter-based random numbers (invariant 2), written once for a word type: uint32_t in scalar
+// code, a register of uint32_t in kernels. Only integer operations, so that both give the same
+// bits on every machine.
+//
+// A number is named by (seed, pixel, sample, vertex, dimension), each dimension a pair of numbers.
+//
+//   independent  the name is hashed; 24 bits of each of two hashes.
+//   sobol        the first two Sobol dimensions, for every named pair anew ("padded"): the sample
+//                index is shuffled and the point is scrambled, both by hash-based Owen scrambling
+//                under a key of (seed, pixel, vertex, dimension). Over aligned power-of-two runs of
+//                samples every pair is a (0,2)-net, and different pairs are independent.
+//
+// Source  Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020: padding, shuffling and
+//         scrambling by the hash of Laine and Karras 2011; constants of the hash by Vegdahl,
+//         "Building a Better LK Hash", 2021. The second Sobol dimension is the Pascal matrix
+//         modulo 2, applied as a butterfly over the five index bits (cf. Ahmed 2024).
+//         Departs: bit reversals that cancel between the steps are left out.
+
+#include <cstdint>
+
+#include "soa/fields.h"
+
+namespace yat {
+
+/// A permutation of 32-bit words in which every input bit changes every output bit.
+/// Constants: Wellons, "Prospecting for Hash Functions", 2018.
+template <class Word>
+YAT_INLINE Word mix_word(Word x) {
+  x = x ^ (x >> 16);
+  x = x * Word(0x7feb352du);
+  x = x ^ (x >> 15);
+  x = x * Word(0x846ca68bu);
+  return x ^ (x >> 16);
+}
+
+/// Key of a pair. `vertex` below 2^16.
+template <class Word>
+YAT_INLINE Word random_key(uint32_t seed, uint32_t dimension, Word pixel, Word vertex) {
+  const Word seed_key = mix_word(Word(seed) + Word(0x9e3779b9u));
+  const Word dimension_key = mix_word(seed_key + Word(dimension * 0x9e3779b9u + 0x3c6ef372u));
+  const Word pixel_key = mix_word(pixel ^ seed_key);
+  return mix_word(pixel_key ^ dimension_key ^ (vertex * Word(0x9e3779b1u)));
+}
+
+/// A random base-2 tree permutation of words written least significant digit first: bit k changes
+/// only bits above k.
+template <class Word>
+YAT_INLINE Word scramble_reversed(Word x, Word seed) {
+  x = x ^ (x * Word(0x3d20adeau));
+  x = x + seed;
+  x = x * ((seed >> 16) | Word(1u));
+  x = x ^ (x * Word(0x05526c56u));
+  return x ^ (x * Word(0x53a22864u));
+}
+
+/// The second Sobol generator (Pascal matrix modulo 2) applied to an index; bit 0 of the result is
+/// the most significant digit of the point.
+template <class Word>
+YAT_INLINE Word pascal_butterfly(Word x) {
+  x = x ^ ((x >> 1) & Word(0x55555555u));
+  x = x ^ ((x >> 2) & Word(0x33333333u));
+  x = x ^ ((x >> 4) & Word(0x0f0f0f0fu));
+  x = x ^ ((x >> 8) & Word(0x00ff00ffu));
+  return x ^ ((x >> 16) & Word(0x0000ffffu));
+}
+
+template <class Word>
+struct WordPair {
+  Word first, second;
+};
+
+template <class Word>
+YAT_INLINE WordPair<Word> independent_words(Word key, Word sample) {
+  const Word first = mix_word(key ^ (sample * Word(0x9e3779b1u)));
+  return {first, mix_word(first + Word(0x85ebca6bu))};
+}
+
+/// `reverse` is the bit reversal for Word.
+template <class Word, class Reverse>
+YAT_INLINE WordPair<Word> sobol_words(Word key, Word sample, Reverse reverse) {
+  const Word index = reverse(scramble_reversed(reverse(sample), key));
+  const Word key_x = mix_word(key ^ Word(0xa511e9b3u));
+  const Word key_y = (key_x * Word(0x63d83595u)) ^ (key_x >> 15);
+  return {reverse(scramble_reversed(index, key_x)),
+          reverse(scramble_reversed(pascal_butterfly(index), key_y))};
+}
+
+}  // namespace yat

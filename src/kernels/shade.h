@@ -1,0 +1,249 @@
+#pragma once
+// Shading: direct light through the BSDF, and the next ray. One kernel per material.
+//
+// Order of decisions for a row at vertex `depth`:
+//   1. see-through materials: the path goes on behind the surface, whatever its depth.
+//   2. depth >= max_depth: the path ends (it came here for its emission).
+//   3. light sampling (not for delta materials): a shadow ray, if it can bring anything.
+//   4. the next direction; a path of no weight ends.
+//   5. Russian roulette from roulette_depth on: survival with q = min(1, largest channel of the
+//      throughput), so that a survivor's throughput never grows above 1 and no colour is favoured.
+//   6. the next ray, at vertex depth + 1 (or least_depth_after_scatter, if that is more).
+// The throughput may be negative throughout (pixel filter with negative lobes): weights are judged
+// before they meet it.
+
+#include "kernels/drop.h"
+#include "kernels/material.h"
+#include "kernels/math.h"
+#include "kernels/table.h"
+
+namespace yat::YAT_ISA {
+
+template <class A>
+using PathStateW = PathState<Lanes<A>::template Of>;
+
+/// The frame that materials see, and the side that the path is on.
+template <class A>
+struct ShadingFrame {
+  Frame<A> frame;  ///< z: shading normal on wo's side
+  Vec3<A> ng;      ///< geometric normal on wo's side
+  BsdfView<A> view;
+
+  static YAT_INLINE ShadingFrame of(const Vec3<A>& ng, const Vec3<A>& ns, const Vec3<A>& wo) {
+    const Float<A> zero(0.f);
+    ShadingFrame f;
+    f.view.outside = dot(ng, wo) > zero;
+    f.ng = select(f.view.outside, ng, -ng);
+    const Vec3<A> turned = select(f.view.outside, ns, -ns);
+    const Mask<A> above = dot(turned, wo) > zero;
+    f.frame = Frame<A>::about(select(above, turned, f.ng));
+    f.view.wo = f.frame.to_local(wo);
+    // Rounding only: wo lies on the side of ng.
+    f.view.wo.z = xsimd::max(f.view.wo.z, zero);
+    return f;
+  }
+};
+
+/// Where to start from a surface on the side of ng (unit, either side), `offset` off it.
+template <class A>
+YAT_INLINE Vec3<A> spawn_point(const Vec3<A>& pos, const Float<A>& offset, const Vec3<A>& ng,
+                               const Mask<A>& same_side) {
+  return pos + xsimd::select(same_side, offset, -offset) * ng;
+}
+
+template <class A>
+YAT_INLINE Mask<A> is_finite_positive(const Spectrum<A>& c) {
+  return is_finite_positive<A>(c.r) & is_finite_positive<A>(c.g) & is_finite_positive<A>(c.b);
+}
+template <class A>
+YAT_INLINE Mask<A> is_finite(const Spectrum<A>& c) {
+  return is_finite<A>(c.r) & is_finite<A>(c.g) & is_finite<A>(c.b);
+}
+template <class A>
+YAT_INLINE Mask<A> is_not_black(const Spectrum<A>& c) {
+  const Float<A> zero(0.f);
+  return (c.r != zero) | (c.g != zero) | (c.b != zero);
+}
+
+/// Rows of a parameter table; one row is the same for all.
+template <class A, template <template <class> class> class Record>
+YAT_INLINE Record<Lanes<A>::template Of> load_parameters(const ParameterView& view,
+                                                         const UInt<A>& row) {
+  const Rows<Record> rows{view.words, view.count};
+  return view.count == 1 ? broadcast<A>(rows, 0) : gather<A>(rows, row);
+}
+
+/// Appends rows of `active` lanes as next rays, the other lanes of `present` as finished slots.
+template <class A>
+YAT_INLINE void append_paths(const Vec3<A>& org, const Vec3<A>& dir, const PathStateW<A>& path,
+                             const Mask<A>& alive, const Mask<A>& present, ShadeOutput& out) {
+  Ray<Lanes<A>::template Of> ray;
+  ray.org_x = org.x;
+  ray.org_y = org.y;
+  ray.org_z = org.z;
+  ray.dir_x = dir.x;
+  ray.dir_y = dir.y;
+  ray.dir_z = dir.z;
+  ray.t_max = Float<A>(kRayFar);
+  store_packed<A>(ray, alive, out.rays, out.path_count);
+  store_packed<A>(path, alive, out.paths, out.path_count);
+  out.path_count += count_true<A>(alive);
+  const Mask<A> ended = present & !alive;
+  if (any<A>(ended)) {
+    store_packed<A>(path.slot, ended, out.finished, out.finished_count);
+    out.finished_count += count_true<A>(ended);
+  }
+}
+
+/// Direct light of active rows: f |cos| L / pdf, weighted against the BSDF's own chance of finding
+/// the light (power heuristic; lights without density count in full).
+template <class A, template <class> class Material, class Parameters>
+YAT_INLINE void append_shadow_rays(const LightSample<ConstColumn>& lights, uint32_t i,
+                                   const Vec3<A>& pos, const Float<A>& offset,
+                                   const ShadingFrame<A>& shading, const Parameters& parameters,
+                                   const PathStateW<A>& path, Mask<A> active, const uint32_t* pixel,
+                                   const uint32_t* sample, ShadeOutput& out, DropLog& log) {
+  const Float<A> zero(0.f), one(1.f);
+  const LightSample<Lanes<A>::template Of> light = load<A>(lights, i);
+  const Spectrum<A> arriving{light.weight_r, light.weight_g, light.weight_b};
+  active = active & is_not_black<A>(arriving);
+  const Vec3<A> wi{light.wi_x, light.wi_y, light.wi_z};
+  const Vec3<A> wi_local = shading.frame.to_local(wi);
+  const Float<A> geometric = dot(shading.ng, wi);
+  // Reflection or transmission is for the geometric normal to say: where the shading normal says
+  // otherwise, nothing arrives.
+  const Mask<A> same_side = geometric > zero;
+  active = active & !(geometric * wi_local.z <= zero);
+  if (!any<A>(active)) return;
+
+  const Spectrum<A> f =
+      xsimd::abs(wi_local.z) * Material<A>::evaluate(parameters, shading.view, wi_local);
+  const Float<A> scattered = Material<A>::pdf(parameters, shading.view, wi_local);
+  const Float<A> share =
+      xsimd::select(light.pdf > zero, power_heuristic<A>(light.pdf, scattered), one);
+  drop_lanes<A>(active, !(is_finite_positive<A>(arriving) & is_finite_positive<A>(light.pdf)),
+                DropCause::kLight, pixel, sample, log);
+  drop_lanes<A>(active, !is_finite_positive<A>(f), DropCause::kBsdf, pixel, sample, log);
+  drop_lanes<A>(active, !is_finite_positive<A>(scattered), DropCause::kPdf, pixel, sample, log);
+  const Spectrum<A> add =
+      share * (f * arriving) * Spectrum<A>{path.throughput_r, path.throughput_g, path.throughput_b};
+  active = active & is_not_black<A>(add);
+  drop_lanes<A>(active, !is_finite<A>(add), DropCause::kOther, pixel, sample, log);
+
+  const Vec3<A> org = spawn_point<A>(pos, offset, shading.ng, same_side);
+  ShadowRay<Lanes<A>::template Of> ray;
+  ray.org_x = org.x;
+  ray.org_y = org.y;
+  ray.org_z = org.z;
+  ray.dir_x = light.to_x - org.x;
+  ray.dir_y = light.to_y - org.y;
+  ray.dir_z = light.to_z - org.z;
+  ray.add_r = add.r;
+  ray.add_g = add.g;
+  ray.add_b = add.b;
+  ray.slot = path.slot;
+  store_packed<A>(ray, active, out.shadow_rays, out.shadow_count);
+  out.shadow_count += count_true<A>(active);
+}
+
+/// See KernelTable::shade: materials that scatter.
+template <class A, template <class> class Material, template <template <class> class> class Record,
+          bool kDelta, bool kNeedsLobe, bool kNeedsDirection>
+void shade_scattering(const ShadeInput& in, const TransportOptions& options, ShadeOutput& out,
+                      DropLog& log, uint32_t n) noexcept {
+  const Float<A> zero(0.f), one(1.f);
+  const bool sample_lights = !kDelta && in.lights.wi_x;
+  for (uint32_t i = 0; i < n; i += kLanes<A>) {
+    const Mask<A> present = tail_mask<A>(i, n);
+    const uint32_t *pixel = in.paths.pixel + i, *sample = in.paths.sample + i;
+    PathStateW<A> path = load<A>(in.paths, i);
+    const UInt<A> vertex = path.depth & UInt<A>(0xffffu);
+    Mask<A> alive = present & mask_of<A>(vertex < UInt<A>(options.max_depth));
+
+    const Vec3<A> pos{load<A>(in.surfaces.pos_x, i), load<A>(in.surfaces.pos_y, i),
+                      load<A>(in.surfaces.pos_z, i)};
+    const Vec3<A> ng{load<A>(in.surfaces.ng_x, i), load<A>(in.surfaces.ng_y, i),
+                     load<A>(in.surfaces.ng_z, i)};
+    const Vec3<A> ns{load<A>(in.surfaces.ns_x, i), load<A>(in.surfaces.ns_y, i),
+                     load<A>(in.surfaces.ns_z, i)};
+    const Vec3<A> wo{load<A>(in.surfaces.wo_x, i), load<A>(in.surfaces.wo_y, i),
+                     load<A>(in.surfaces.wo_z, i)};
+    const Float<A> offset = load<A>(in.surfaces.offset, i);
+    const auto parameters = load_parameters<A, Record>(
+        in.parameters, only<A>(present, load<A>(in.surfaces.parameter, i)));
+    const ShadingFrame<A> shading = ShadingFrame<A>::of(ng, ns, wo);
+
+    if constexpr (!kDelta)
+      if (sample_lights)
+        append_shadow_rays<A, Material>(in.lights, i, pos, offset, shading, parameters, path, alive,
+                                        pixel, sample, out, log);
+
+    const Float<A> lobe = kNeedsLobe ? load<A>(in.randoms.lobe, i) : zero;
+    const Float<A> u = kNeedsDirection ? load<A>(in.randoms.bsdf_u, i) : zero;
+    const Float<A> v = kNeedsDirection ? load<A>(in.randoms.bsdf_v, i) : zero;
+    const BsdfSample<A> next = Material<A>::sample(parameters, shading.view, lobe, u, v);
+    Vec3<A> wi = shading.frame.to_scene(next.wi);
+    // Repeated reflection would let rounding pile up in the length.
+    if constexpr (kDelta) wi = normalize(wi);
+    const Float<A> geometric = dot(shading.ng, wi);
+    drop_lanes<A>(alive, ~(is_finite_positive<A>(next.weight) & is_finite<A>(geometric)),
+                  DropCause::kBsdf, pixel, sample, log);
+    drop_lanes<A>(alive, !is_finite_positive<A>(next.pdf), DropCause::kPdf, pixel, sample, log);
+    alive = alive & (geometric * next.wi.z > zero);
+
+    Spectrum<A> throughput =
+        next.weight * Spectrum<A>{path.throughput_r, path.throughput_g, path.throughput_b};
+    if (in.randoms.roulette) {
+      const Mask<A> plays = mask_of<A>(vertex >= UInt<A>(options.roulette_depth));
+      if (any<A>(plays & alive)) {
+        const Float<A> brightest = largest<A>(Spectrum<A>{
+            xsimd::abs(throughput.r), xsimd::abs(throughput.g), xsimd::abs(throughput.b)});
+        const Float<A> chance = xsimd::select(plays, xsimd::min(brightest, one), one);
+        // A path without weight (chance 0) dies; a NaN lives on to be counted.
+        alive = alive & !(load<A>(in.randoms.roulette, i) >= chance);
+        throughput = (one / chance) * throughput;
+      }
+    }
+    alive = alive & is_not_black<A>(throughput);
+    drop_lanes<A>(alive, !is_finite<A>(throughput), DropCause::kOther, pixel, sample, log);
+
+    path.throughput_r = throughput.r;
+    path.throughput_g = throughput.g;
+    path.throughput_b = throughput.b;
+    path.pdf = next.pdf;
+    path.passed = zero;
+    UInt<A> next_vertex = vertex + UInt<A>(1u);
+    if constexpr (!kDelta)
+      next_vertex = xsimd::max(next_vertex, UInt<A>(options.least_depth_after_scatter));
+    path.depth = (path.depth & UInt<A>(0xffff0000u)) | next_vertex;
+    append_paths<A>(spawn_point<A>(pos, offset, shading.ng, geometric > zero), wi, path, alive,
+                    present, out);
+  }
+}
+
+/// See KernelTable::shade: see-through surfaces. The path keeps direction, pdf and vertex; the
+/// distance so far is kept for MIS, and the crossings are counted.
+template <class A>
+void shade_see_through(const ShadeInput& in, const TransportOptions&, ShadeOutput& out,
+                       DropLog& log, uint32_t n) noexcept {
+  const Float<A> zero(0.f);
+  for (uint32_t i = 0; i < n; i += kLanes<A>) {
+    const Mask<A> present = tail_mask<A>(i, n);
+    PathStateW<A> path = load<A>(in.paths, i);
+    Mask<A> alive = present;
+    drop_lanes<A>(alive, mask_of<A>(path.depth >= UInt<A>(0xffff0000u)), DropCause::kCrossings,
+                  in.paths.pixel + i, in.paths.sample + i, log);
+    const Vec3<A> pos{load<A>(in.surfaces.pos_x, i), load<A>(in.surfaces.pos_y, i),
+                      load<A>(in.surfaces.pos_z, i)};
+    const Vec3<A> ng{load<A>(in.surfaces.ng_x, i), load<A>(in.surfaces.ng_y, i),
+                     load<A>(in.surfaces.ng_z, i)};
+    const Vec3<A> dir{-load<A>(in.surfaces.wo_x, i), -load<A>(in.surfaces.wo_y, i),
+                      -load<A>(in.surfaces.wo_z, i)};
+    path.passed = load<A>(in.surfaces.distance, i);
+    path.depth = path.depth + UInt<A>(0x10000u);
+    append_paths<A>(spawn_point<A>(pos, load<A>(in.surfaces.offset, i), ng, dot(ng, dir) > zero),
+                    dir, path, alive, present, out);
+  }
+}
+
+}  // namespace yat::YAT_ISA

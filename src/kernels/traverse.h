@@ -1,0 +1,370 @@
+#pragma once
+// Rays against the 8-wide tree in breadth-first streams: a node is visited once with the list of
+// all rays that reach it, tests them against its eight boxes, and hands each child the packed list
+// of its rays. Long lists test W rays against one box after the other, short ones a ray against
+// eight boxes.
+//
+// Row independence (invariant 1): what a ray meets follows from the tree and the ray. Its way
+// through the tree is fixed by its octant, and whether it enters a box by comparisons of its own
+// numbers, the same in both kinds of test; neighbours in the list change nothing.
+//
+// Source: Wald, Gribble, Boulos, Kensler, "SIMD Ray Stream Tracing", 2007; Tsakok, "Faster
+// Incoherent Rays: Multi-BVH Ray Stream Tracing", 2009; padding of boxes: see tree_collapse.cpp.
+
+#include "kernels/traverse_leaf.h"
+
+namespace yat::YAT_ISA {
+
+/// An architecture whose float register holds at most eight lanes, for a ray against eight boxes.
+template <class A>
+struct EightBoxes {
+  using Arch = A;
+};
+#if defined(__AVX512F__)
+template <>
+struct EightBoxes<xsimd::avx512bw> {
+  using Arch = xsimd::fma3<xsimd::avx2>;
+};
+#endif
+
+/// Lists this short are tested ray by ray.
+inline constexpr uint32_t kShortList = 6;
+/// From this length on a leaf tests W rays at once, if their number fills registers well enough
+/// against the triangles it holds.
+inline constexpr uint32_t kLeafLanes = 1;
+
+inline constexpr uint32_t kLeafBit = 0x80000000u;
+
+constexpr size_t list_words(uint32_t rays) {
+  return padded_rows(rays) + kRowPad;  // A packed store may start at the last ray.
+}
+
+/// One pass over the tree.
+template <class A, Query Q>
+struct Traversal {
+  static constexpr uint32_t W = kLanes<A>;
+  const TreeView& tree;
+  float* records;
+  uint32_t second_kz, third_kz;  ///< first slots of the classes kz = 1 and 2 of this pass
+  uint32_t octant;               ///< of all rays of a closest-hit pass
+  LaneCount count;
+
+  YAT_INLINE uint32_t kz_of(uint32_t slot) const {
+    return uint32_t(slot >= second_kz) + uint32_t(slot >= third_kz);
+  }
+
+  YAT_INLINE void prefetch(uint32_t child) const {
+    if (child & kLeafBit) {
+      const float* p = tree.blocks + size_t((child & ~kLeafBit) >> 5) * tree.block_width * 10;
+      for (uint32_t line = 0; line < tree.block_width * 10; line += 32)
+        __builtin_prefetch(p + line);
+    } else {
+      const auto* p = reinterpret_cast<const char*>(tree.nodes + child);
+      for (uint32_t line = 0; line < sizeof(TreeNode); line += 64) __builtin_prefetch(p + line);
+    }
+  }
+
+  /// Drops rays that have found something nearer than the box (closest) or at all (any) since the
+  /// list was made.
+  YAT_INLINE uint32_t drop_done(uint32_t* slots, const float* enter, uint32_t n) const {
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < n; ++i) {
+      const uint32_t slot = slots[i];
+      const float t = records[size_t(slot) * kRecordWords + kRecordT];
+      slots[kept] = slot;
+      if constexpr (Q == Query::kClosest) {
+        kept += uint32_t(enter[i] <= t);
+      } else {
+        kept += uint32_t(t > 0.f);
+      }
+    }
+    return kept;
+  }
+
+  YAT_INLINE void visit_leaf(uint32_t child, uint32_t* slots, uint32_t n) noexcept {
+    const uint32_t first = (child & ~kLeafBit) >> 5, blocks = (child & 31) + 1;
+    const uint32_t width = tree.block_width;
+    const float* const block = tree.blocks + size_t(first) * width * 10;
+    const uint32_t* const occluders = tree.block_occluders + first;
+    if (n >= kLeafLanes * W) {
+      UInt<A>(slots[0]).store_unaligned(slots + n);  // Padding that is safe to load.
+      for (uint32_t i = 0; i < n; i += W) {
+        Float<A> ray[8];
+        load_rows8<A>(records + kRecordTriangle, slots + i, kRecordWords, ray);
+        const uint32_t last = slots[(n - i < W ? n - i : W) + i - 1];
+        const uint32_t from = kz_of(slots[i]), to = kz_of(last);
+        const UInt<A> slot = load<A>(slots, i);
+        for (uint32_t kz = from; kz <= to; ++kz) {
+          Mask<A> active = tail_mask<A>(i, n);
+          if (from != to) {
+            const uint32_t begin = kz == 0 ? 0 : kz == 1 ? second_kz : third_kz;
+            const uint32_t end = kz == 0 ? second_kz : kz == 1 ? third_kz : kNone;
+            active = active & mask_of<A>(slot >= UInt<A>(begin)) & mask_of<A>(slot < UInt<A>(end));
+            if (!any<A>(active)) continue;
+          }
+          test_rays<A, Q>(block, blocks, width, BlockAxes(kz, width), occluders, ray, active,
+                          records, slots + i, count);
+        }
+      }
+      return;
+    }
+    for (uint32_t i = 0; i < n; ++i) {
+      float* const record = records + size_t(slots[i]) * kRecordWords;
+      const BlockAxes axes(kz_of(slots[i]), width);
+      for (uint32_t b = 0; b < blocks; ++b) {
+        if (test_block<A, Q>(block + size_t(b) * width * 10, width, axes, occluders[b], record,
+                             count)) {
+          record[kRecordT] = -1.f;
+          break;
+        }
+      }
+    }
+  }
+
+  /// The rays of a list against the boxes of a node: fills a list per child.
+  YAT_INLINE void test_rays_by_box(const TreeNode& node, uint32_t children, const uint32_t* slots,
+                                   uint32_t n, uint32_t* const (&lists)[8],
+                                   float* const (&enters)[8], uint32_t (&lengths)[8]) noexcept {
+    const float* const planes = node.min_x;
+    const uint32_t near_x = octant & 1 ? 24 : 0, near_y = octant & 2 ? 32 : 8,
+                   near_z = octant & 4 ? 40 : 16;
+    const Float<A> zero(0.f);
+    for (uint32_t i = 0; i < n; i += W) {
+      Float<A> ray[8];  // u, 1/dir, -org/dir, t
+      load_rows8<A>(records + kRecordBox, slots + i, kRecordWords, ray);
+      const UInt<A> slot = load<A>(slots, i);
+      const Mask<A> valid = tail_mask<A>(i, n);
+      count.rows += uint64_t(n - i < W ? n - i : W) * children;
+      count.steps += children;
+      for (uint32_t c = 0; c < children; ++c) {
+        const auto plane = [&](uint32_t offset, uint32_t axis) {
+          return xsimd::fma(Float<A>(planes[offset + c]), ray[1 + axis], ray[4 + axis]);
+        };
+        Float<A> x0, x1, y0, y1, z0, z1;
+        if constexpr (Q == Query::kClosest) {
+          x0 = plane(near_x, 0), x1 = plane(24 - near_x, 0);
+          y0 = plane(near_y, 1), y1 = plane(40 - near_y, 1);
+          z0 = plane(near_z, 2), z1 = plane(56 - near_z, 2);
+        } else {
+          const Float<A> ax = plane(0, 0), bx = plane(24, 0), ay = plane(8, 1), by = plane(32, 1),
+                         az = plane(16, 2), bz = plane(40, 2);
+          x0 = xsimd::min(ax, bx), x1 = xsimd::max(ax, bx);
+          y0 = xsimd::min(ay, by), y1 = xsimd::max(ay, by);
+          z0 = xsimd::min(az, bz), z1 = xsimd::max(az, bz);
+        }
+        const Float<A> enter = xsimd::max(xsimd::max(x0, y0), xsimd::max(z0, zero));
+        const Float<A> leave = xsimd::min(xsimd::min(x1, y1), xsimd::min(z1, ray[7]));
+        const Mask<A> in = (enter <= leave) & valid;
+        store_packed<A>(slot, in, lists[c], lengths[c]);
+        if constexpr (Q == Query::kClosest) store_packed<A>(enter, in, enters[c], lengths[c]);
+        lengths[c] += count_true<A>(in);
+      }
+    }
+  }
+
+  /// The same, ray by ray: one ray against eight boxes.
+  YAT_INLINE void test_boxes_by_ray(const TreeNode& node, uint32_t children, const uint32_t* slots,
+                                    uint32_t n, uint32_t* const (&lists)[8],
+                                    float* const (&enters)[8], uint32_t (&lengths)[8]) noexcept {
+    using B = typename EightBoxes<A>::Arch;
+    constexpr uint32_t L = kLanes<B>;
+    static_assert(8 % L == 0);
+    const float* const planes = node.min_x;
+    const Float<B> zero(0.f);
+    for (uint32_t i = 0; i < n; ++i) {
+      const float* const record = records + size_t(slots[i]) * kRecordWords;
+      const uint32_t near_x = record[2] < 0.f ? 24 : 0, near_y = record[3] < 0.f ? 32 : 8,
+                     near_z = record[4] < 0.f ? 40 : 16;
+      const Float<B> t_max(record[kRecordT]);
+      count.rows += children;
+      count.steps += 8 / L;
+      for (uint32_t first = 0; first < 8; first += L) {
+        const auto plane = [&](uint32_t offset, uint32_t axis) {
+          return xsimd::fma(Float<B>::load_aligned(planes + offset + first),
+                            Float<B>(record[2 + axis]), Float<B>(record[5 + axis]));
+        };
+        const Float<B> enter = xsimd::max(xsimd::max(plane(near_x, 0), plane(near_y, 1)),
+                                          xsimd::max(plane(near_z, 2), zero));
+        const Float<B> leave = xsimd::min(xsimd::min(plane(24 - near_x, 0), plane(40 - near_y, 1)),
+                                          xsimd::min(plane(56 - near_z, 2), t_max));
+        alignas(64) float enter_of[L];
+        if constexpr (Q == Query::kClosest) enter.store_aligned(enter_of);
+        for (uint32_t bits = mask_bits<B>(enter <= leave); bits; bits &= bits - 1) {
+          const auto lane = uint32_t(__builtin_ctz(bits));
+          const uint32_t c = first + lane;
+          lists[c][lengths[c]] = slots[i];
+          if constexpr (Q == Query::kClosest) enters[c][lengths[c]] = enter_of[lane];
+          ++lengths[c];
+        }
+      }
+    }
+  }
+
+  /// Visits a node with n > 0 rays, and what is below it. arena: free scratch.
+  void visit(uint32_t row, const uint32_t* slots, uint32_t n, std::byte* arena) noexcept {
+    const TreeNode& node = tree.nodes[row];
+    uint32_t children = 0;
+    while (children < 8 && node.child[children] != kNone) ++children;
+    const size_t words = list_words(n);
+    uint32_t* lists[8];
+    float* enters[8];
+    uint32_t lengths[8] = {};
+    for (uint32_t c = 0; c < 8; ++c) {
+      lists[c] = reinterpret_cast<uint32_t*>(arena) + words * c;
+      enters[c] = reinterpret_cast<float*>(arena) + words * (8 + c);
+    }
+    arena += words * 4 * (Q == Query::kClosest ? 16 : 8);
+    if (n <= kShortList) {
+      test_boxes_by_ray(node, children, slots, n, lists, enters, lengths);
+    } else {
+      test_rays_by_box(node, children, slots, n, lists, enters, lengths);
+    }
+    for (uint32_t c = 0; c < children; ++c)
+      if (lengths[c]) prefetch(node.child[c]);
+    const uint8_t* const bytes = node.order[octant];
+    uint32_t order = uint32_t(bytes[0]) | uint32_t(bytes[1]) << 8 | uint32_t(bytes[2]) << 16;
+    for (uint32_t k = 0; k < children; ++k, order >>= 3) {
+      const uint32_t c = order & 7;
+      if (!lengths[c]) continue;
+      const uint32_t left = drop_done(lists[c], enters[c], lengths[c]);
+      if (!left) continue;
+      if (node.child[c] & kLeafBit) {
+        visit_leaf(node.child[c], lists[c], left);
+      } else {
+        UInt<A>(lists[c][0]).store_unaligned(lists[c] + left);  // Padding that is safe to load.
+        visit(node.child[c], lists[c], left, arena);
+      }
+    }
+  }
+};
+
+/// Bytes of the parts of the scratch memory.
+struct ScratchPlan {
+  uint32_t rays;
+  size_t records, words, total;
+  YAT_INLINE ScratchPlan(const TreeView& tree, uint32_t max_rays) {
+    rays = max_rays < kStreamRays ? max_rays : kStreamRays;
+    records = (size_t(rays) + 1) * kRecordWords * 4;
+    words = list_words(rays) * 4;
+    // Rows' slots, shifts and classes, the root's list, and eight lists (slots and distances) per
+    // level of the tree, each as long as the stream: nothing can overflow.
+    total = records + words * 4 + words * 16 * (size_t(tree.max_depth) + 1) + 64;
+  }
+};
+
+template <class A>
+size_t traversal_scratch_bytes(const TreeView& tree, uint32_t max_rays) noexcept {
+  return ScratchPlan(tree, max_rays).total;
+}
+
+/// Traces rows [0, n), n <= kStreamRays, and leaves the answers in the records.
+template <class A, Query Q, class Columns>
+YAT_INLINE LaneCount trace_stream(const TreeView& tree, const Columns& rays, uint32_t n,
+                                  const Scratch& scratch, RayStream& stream) noexcept {
+  const ScratchPlan plan(tree, n);
+  std::byte* free = scratch.memory;
+  const auto take = [&free](size_t bytes) {
+    std::byte* p = free;
+    free += (bytes + 63) / 64 * 64;
+    return p;
+  };
+  stream.records = reinterpret_cast<float*>(take(plan.records));
+  stream.slot_of_row = reinterpret_cast<uint32_t*>(take(plan.words));
+  stream.shift = reinterpret_cast<float*>(take(plan.words));
+  stream.class_of_row = reinterpret_cast<uint32_t*>(take(plan.words));
+  auto* const slots = reinterpret_cast<uint32_t*>(take(plan.words));
+  float extent = 0;
+  for (int a = 0; a < 3; ++a) {
+    const float low = tree.min[a] < 0 ? -tree.min[a] : tree.min[a];
+    const float high = tree.max[a] < 0 ? -tree.max[a] : tree.max[a];
+    extent = low > extent ? low : extent;
+    extent = high > extent ? high : extent;
+  }
+  sort_rays<A, Q>(tree, extent, rays, n, stream);
+  write_records<A, Q>(rays, n, stream);
+  LaneCount count;
+  for (uint32_t octant = 0; octant < (Q == Query::kClosest ? 8 : 1); ++octant) {
+    const uint32_t* const first = stream.first_slot + 3 * octant;
+    const uint32_t m = first[3] - first[0];
+    if (m == 0) continue;
+    constexpr uint32_t W = kLanes<A>;
+    for (uint32_t i = 0; i < m; i += W)
+      (lane_index<A>() + UInt<A>(first[0] + i)).store_unaligned(slots + i);
+    UInt<A>(first[0]).store_unaligned(slots + m);
+    Traversal<A, Q> pass{tree, stream.records, first[1], first[2], octant, {}};
+    pass.visit(0, slots, m, free);
+    count.rows += pass.count.rows;
+    count.steps += pass.count.steps;
+  }
+  return count;
+}
+
+/// See KernelTable. Hits are watertight, in (0, t_max]; of equal distances the lower primitive row
+/// wins. A ray with a NaN or infinite number, or without direction, is a miss.
+template <class A>
+LaneCount intersect_closest(const TreeView& tree, const Ray<ConstColumn>& rays,
+                            const Hit<Column>& hits, uint32_t n, const Scratch& scratch) noexcept {
+  LaneCount count;
+  for (uint32_t begin = 0; begin < n; begin += kStreamRays) {
+    const uint32_t m = n - begin < kStreamRays ? n - begin : kStreamRays;
+    const Ray<ConstColumn> in = columns_from(rays, begin);
+    const Hit<Column> out = columns_from(hits, begin);
+    RayStream stream;
+    if (tree.node_count) {
+      const LaneCount c = trace_stream<A, Query::kClosest>(tree, in, m, scratch, stream);
+      count.rows += c.rows;
+      count.steps += c.steps;
+    }
+    if (!tree.node_count) {
+      for (uint32_t i = 0; i < m; ++i) {
+        out.t[i] = in.t_max[i];
+        out.u[i] = out.v[i] = 0.f;
+        out.prim[i] = kNone;
+      }
+      continue;
+    }
+    for (uint32_t i = 0; i < m; i += kLanes<A>) {
+      Float<A> head[8], tail[8];
+      load_rows8<A>(stream.records, stream.slot_of_row + i, kRecordWords, head);
+      load_rows8<A>(stream.records + kRecordTriangle, stream.slot_of_row + i, kRecordWords, tail);
+      const UInt<A> prim = as_uint<A>(tail[kRecordPrim - kRecordTriangle]);
+      Float<A> t = tail[kRecordT - kRecordTriangle];
+      if (stream.any_shift) t = t + load<A>(stream.shift, i);
+      const Mask<A> miss = mask_of<A>(prim == UInt<A>(kNone));
+      store<A>(select<A>(miss, load<A>(in.t_max, i), t), out.t, i);
+      store<A>(head[kRecordU], out.u, i);
+      store<A>(head[kRecordV], out.v, i);
+      store<A>(prim, out.prim, i);
+    }
+  }
+  return count;
+}
+
+/// See KernelTable. Q says whether block_occluders are looked at.
+template <class A, Query Q>
+LaneCount intersect_shadow(const TreeView& tree, const ShadowRay<ConstColumn>& rays,
+                           uint32_t* occluded, uint32_t n, const Scratch& scratch) noexcept {
+  LaneCount count;
+  for (uint32_t begin = 0; begin < n; begin += kStreamRays) {
+    const uint32_t m = n - begin < kStreamRays ? n - begin : kStreamRays;
+    RayStream stream;
+    if (tree.node_count) {
+      const LaneCount c = trace_stream<A, Q>(tree, columns_from(rays, begin), m, scratch, stream);
+      count.rows += c.rows;
+      count.steps += c.steps;
+    }
+    for (uint32_t i = 0; i < m; i += kLanes<A>) {
+      UInt<A> stopped(0u);
+      if (tree.node_count) {
+        const UInt<A> slot = load<A>(stream.slot_of_row, i);
+        const Float<A> t = gather<A>(static_cast<const float*>(stream.records) + kRecordT,
+                                     slot * UInt<A>(kRecordWords));
+        stopped = select<A>(t < Float<A>(0.f), UInt<A>(1u), UInt<A>(0u));
+      }
+      store<A>(stopped, occluded + begin, i);
+    }
+  }
+  return count;
+}
+
+}  // namespace yat::YAT_ISA

@@ -1,0 +1,207 @@
+#pragma once
+// Triangle tests over leaf blocks: many rays against one triangle after the other, or one ray
+// against a block of triangles. Both round alike, so a ray's answer does not tell which was used.
+//
+// Watertight: the vertices are sheared so that the ray runs along the z axis from the origin; a
+// shared vertex gets the same two coordinates in every triangle, and the edge functions are a
+// difference of two rounded products, whose sign is never wrong, only lost to zero. Zero counts as
+// inside (Woop, Benthin, Wald 2013, without the double-precision fallback, which only decides which
+// of two neighbours owns an edge). No fused multiply-add here: it would round the two products
+// differently.
+
+#include "kernels/traverse_rays.h"
+
+namespace yat::YAT_ISA {
+
+/// What the test of W (ray, triangle) pairs gives. Lanes not in `hit` hold nothing of use.
+template <class A>
+struct TriangleHits {
+  Mask<A> hit;
+  Float<A> t, u, v;
+};
+
+/// Vertex coordinates relative to the ray, with rotated axes, sheared in x and y.
+template <class A>
+struct ShearedVertex {
+  Float<A> x, y, z;
+  YAT_INLINE ShearedVertex(const Float<A>& px, const Float<A>& py, const Float<A>& pz,
+                           const Float<A> (&org)[3], const Float<A> (&shear)[3]) {
+    z = pz - org[2];
+    x = (px - org[0]) - shear[0] * z;
+    y = (py - org[1]) - shear[1] * z;
+  }
+};
+
+/// The test of W pairs. `range(t)` says which distances count. False if surely no lane hits: a
+/// branch there pays, a second one on `hit` is too hard to predict.
+template <class A, class Range>
+YAT_INLINE bool test_triangles(const ShearedVertex<A>& a, const ShearedVertex<A>& b,
+                               const ShearedVertex<A>& c, const Float<A>& shear_z, Range&& range,
+                               TriangleHits<A>& out) {
+  const Float<A> zero(0.f);
+  const Float<A> e0 = c.x * b.y - c.y * b.x;
+  const Float<A> e1 = a.x * c.y - a.y * c.x;
+  const Float<A> e2 = b.x * a.y - b.y * a.x;
+  // A NaN may slip through here (min and max drop it), but not through `range`: t is NaN then.
+  const Mask<A> inside =
+      (xsimd::min(xsimd::min(e0, e1), e2) >= zero) | (xsimd::max(xsimd::max(e0, e1), e2) <= zero);
+  if (!any<A>(inside)) return false;
+  const Float<A> det = (e0 + e1) + e2;
+  const Float<A> inverse = Float<A>(1.f) / det;
+  const Float<A> w = e0 * inverse;
+  out.u = e1 * inverse;
+  out.v = e2 * inverse;
+  out.t = ((w * a.z + out.u * b.z) + out.v * c.z) * shear_z;
+  out.hit = inside & (det != zero) & range(out.t);
+  return true;
+}
+
+/// Where the coordinates of a block lie for a ray that moves most along `kz`.
+struct BlockAxes {
+  uint32_t x, y, z;  ///< offsets in words of the first vertex; + 3 * width for the next
+  YAT_INLINE BlockAxes(uint32_t kz, uint32_t width)
+      : x((kz + 1) % 3 * width), y((kz + 2) % 3 * width), z(kz * width) {}
+};
+
+YAT_INLINE const uint32_t* block_prims(const float* block, uint32_t width) {
+  return reinterpret_cast<const uint32_t*>(block + 9 * width);
+}
+
+/// One ray against the triangles of one block. Returns true where an any-hit ray is stopped.
+template <class A, Query Q>
+YAT_INLINE bool test_block(const float* block, uint32_t width, const BlockAxes& axes,
+                           uint32_t occluders, float* record, LaneCount& count) {
+  constexpr uint32_t W = kLanes<A>;
+  const uint32_t* const prims = block_prims(block, width);
+  const Float<A> org[3] = {Float<A>(record[9]), Float<A>(record[10]), Float<A>(record[11])};
+  const Float<A> shear[3] = {Float<A>(record[12]), Float<A>(record[13]), Float<A>(record[14])};
+  const Float<A> zero(0.f);
+  for (uint32_t first = 0; first < width; first += W) {
+    if (first && prims[first] == kNone) break;
+    const auto vertex = [&](uint32_t k) {
+      const float* const p = block + 3 * k * width + first;
+      return ShearedVertex<A>(Float<A>::load_unaligned(p + axes.x),
+                              Float<A>::load_unaligned(p + axes.y),
+                              Float<A>::load_unaligned(p + axes.z), org, shear);
+    };
+    count.rows += W;
+    ++count.steps;
+    const Float<A> t_max(record[kRecordT]);
+    TriangleHits<A> h;
+    const bool found = test_triangles<A>(
+        vertex(0), vertex(1), vertex(2), shear[2],
+        [&](const Float<A>& t) {
+          return Q == Query::kClosest ? (t > zero) & (t <= t_max) : (t > zero) & (t < t_max);
+        },
+        h);
+    if (!found) continue;
+    uint32_t bits = mask_bits<A>(h.hit);
+    if constexpr (Q == Query::kAnyMasked) bits &= occluders >> first;
+    if (!bits) continue;
+    if constexpr (Q != Query::kClosest) {
+      return true;
+    } else {
+      alignas(64) float t[W];
+      h.t.store_aligned(t);
+      uint32_t best = uint32_t(__builtin_ctz(bits));
+      for (bits &= bits - 1; bits; bits &= bits - 1) {
+        const uint32_t lane = uint32_t(__builtin_ctz(bits));
+        // Primitives ascend within a block: of equal distances the first lane wins.
+        if (t[lane] < t[best]) best = lane;
+      }
+      const uint32_t prim = prims[first + best];
+      uint32_t held;
+      __builtin_memcpy(&held, record + kRecordPrim, 4);
+      if (t[best] < record[kRecordT] || prim < held) {
+        alignas(64) float u[W], v[W];
+        h.u.store_aligned(u);
+        h.v.store_aligned(v);
+        record[kRecordT] = t[best];
+        record[kRecordU] = u[best];
+        record[kRecordV] = v[best];
+        __builtin_memcpy(record + kRecordPrim, &prim, 4);
+      }
+    }
+  }
+  return false;
+}
+
+/// W rays of one kz (lanes in `active`) against every triangle of `blocks` blocks.
+template <class A, Query Q>
+YAT_INLINE void test_rays(const float* block, uint32_t blocks, uint32_t width,
+                          const BlockAxes& axes, const uint32_t* occluders,
+                          const Float<A> (&ray)[8], Mask<A> active, float* records,
+                          const uint32_t* slots, LaneCount& count) {
+  constexpr uint32_t W = kLanes<A>;
+  const Float<A> org[3] = {ray[1], ray[2], ray[3]};
+  const Float<A> shear[3] = {ray[4], ray[5], ray[6]};
+  const Float<A> zero(0.f);
+  Float<A> t = ray[0], u = zero, v = zero;
+  UInt<A> prim = as_uint<A>(ray[7]);
+  uint32_t improved = 0, tests = 0, useful = 0;
+  uint32_t live = mask_bits<A>(active);
+  const uint32_t lanes = uint32_t(__builtin_popcount(live));
+  for (uint32_t b = 0; b < blocks; ++b, block += size_t(width) * 10) {
+    const uint32_t* const prims = block_prims(block, width);
+    for (uint32_t k = 0; k < width && prims[k] != kNone; ++k) {
+      const auto vertex = [&](uint32_t i) {
+        const float* const p = block + 3 * i * width + k;
+        return ShearedVertex<A>(Float<A>(p[axes.x]), Float<A>(p[axes.y]), Float<A>(p[axes.z]), org,
+                                shear);
+      };
+      if constexpr (Q == Query::kAnyMasked)
+        if (!(occluders[b] >> k & 1)) continue;
+      ++tests;
+      if constexpr (Q != Query::kClosest) useful += uint32_t(__builtin_popcount(live));
+      const UInt<A> candidate(prims[k]);
+      TriangleHits<A> h;
+      const bool found = test_triangles<A>(
+          vertex(0), vertex(1), vertex(2), shear[2],
+          [&](const Float<A>& distance) {
+            const Mask<A> ahead = active & (distance > zero);
+            if constexpr (Q == Query::kClosest) {
+              return ahead & ((distance < t) | ((distance == t) & mask_of<A>(candidate < prim)));
+            } else {
+              return ahead & (distance < t);
+            }
+          },
+          h);
+      if (!found) continue;
+      improved |= mask_bits<A>(h.hit);
+      if constexpr (Q == Query::kClosest) {
+        t = select<A>(h.hit, h.t, t);
+        u = select<A>(h.hit, h.u, u);
+        v = select<A>(h.hit, h.v, v);
+        prim = select<A>(h.hit, candidate, prim);
+      } else {
+        live &= ~mask_bits<A>(h.hit);
+        if (!live) break;
+      }
+    }
+    if (Q != Query::kClosest && !live) break;
+  }
+  count.rows += Q == Query::kClosest ? uint64_t(tests) * lanes : useful;
+  count.steps += tests;
+  if (!improved) return;
+  if constexpr (Q != Query::kClosest) {
+    for (uint32_t bits = improved; bits; bits &= bits - 1)
+      records[size_t(slots[__builtin_ctz(bits)]) * kRecordWords + kRecordT] = -1.f;
+  } else {
+    alignas(64) float ts[W], us[W], vs[W];
+    alignas(64) uint32_t prims[W];
+    t.store_aligned(ts);
+    u.store_aligned(us);
+    v.store_aligned(vs);
+    prim.store_aligned(prims);
+    for (uint32_t bits = improved; bits; bits &= bits - 1) {
+      const auto lane = uint32_t(__builtin_ctz(bits));
+      float* const record = records + size_t(slots[lane]) * kRecordWords;
+      record[kRecordT] = ts[lane];
+      record[kRecordU] = us[lane];
+      record[kRecordV] = vs[lane];
+      __builtin_memcpy(record + kRecordPrim, prims + lane, 4);
+    }
+  }
+}
+
+}  // namespace yat::YAT_ISA

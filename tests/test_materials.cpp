@@ -1,0 +1,429 @@
+// Every material of the registry, on every instruction set: limits, sampling against density,
+// energy, reciprocity, and the formulas once more in double precision.
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "chi2.h"
+#include "kernel_columns.h"
+#include "kernels/materials/all.h"
+#include "kernels/rng_scalar.h"
+
+namespace yat {
+namespace {
+
+constexpr double kPi = 3.141592653589793;
+constexpr float kAlmostOne = 1.f - 0x1p-24f;
+
+// ---- What each material is tried with. A new material does not compile without an entry here. ---
+
+/// f in double precision at local directions, wo.z > 0.
+using Formula = std::function<glm::dvec3(const glm::dvec3& wo, const glm::dvec3& wi)>;
+
+template <template <template <class> class> class Record>
+struct Case {
+  std::string name;
+  Record<Value> parameters;
+  Formula f;          ///< null for delta materials
+  double albedo = 1;  ///< the model's own bound where its reflectances are 1
+};
+
+std::vector<Case<MatteParameters>> cases(MatteParameters<Value>) {
+  const auto lambert = [](glm::dvec3 kd) {
+    return [kd](const glm::dvec3&, const glm::dvec3& wi) {
+      return wi.z > 0 ? kd / kPi : glm::dvec3(0);
+    };
+  };
+  return {{"white", {1, 1, 1}, lambert(glm::dvec3(1))},
+          {"coloured", {.25f, .5f, 0}, lambert({.25, .5, 0})}};
+}
+
+std::vector<Case<OrenNayarParameters>> cases(OrenNayarParameters<Value>) {
+  std::vector<Case<OrenNayarParameters>> all;
+  for (const float sigma : {0.f, .1f, .5f, 1.5707963f}) {
+    const double s2 = double(sigma) * double(sigma);
+    const double a = 1 - s2 / (2 * (s2 + .33)), b = .45 * s2 / (s2 + .09);
+    // The text-book form, with its angles.
+    const Formula f = [a, b](const glm::dvec3& wo, const glm::dvec3& wi) {
+      if (wi.z <= 0) return glm::dvec3(0);
+      const double to = std::acos(std::min(wo.z, 1.)), ti = std::acos(std::min(wi.z, 1.));
+      const double dphi = std::atan2(wo.y, wo.x) - std::atan2(wi.y, wi.x);
+      return glm::dvec3(1, .5, .25) / kPi *
+             (a + b * std::max(0., std::cos(dphi)) * std::sin(std::max(to, ti)) *
+                      std::tan(std::min(to, ti)));
+    };
+    // Grazing light: the B term integrates to 1/2 at most.
+    all.push_back(
+        {"sigma " + std::to_string(sigma), {1, .5f, .25f, sigma}, f, std::max(1., a + b / 2)});
+  }
+  return all;
+}
+
+std::vector<Case<MirrorParameters>> cases(MirrorParameters<Value>) {
+  return {{"white", {1, 1, 1}, {}}, {"coloured", {.5f, 0, 1}, {}}};
+}
+
+std::vector<Case<GlassParameters>> cases(GlassParameters<Value>) {
+  std::vector<Case<GlassParameters>> all;
+  for (const float index : {1.f, 1.f + 1e-6f, 1.f - 1e-6f, 1.5f, 1 / 1.5f, 3.f, 1 / 3.f})
+    all.push_back({"index " + std::to_string(index), {1, 1, 1, 1, 1, 1, index}, {}});
+  all.push_back({"reflecting only", {1, .5f, 0, 0, 0, 0, 1.5f}, {}});
+  all.push_back({"black", {0, 0, 0, 0, 0, 0, 1.5f}, {}});
+  return all;
+}
+
+std::vector<Case<NullParameters>> cases(NullParameters<Value>) {
+  return {{"null", {0}, {}}};
+}
+
+/// Calls visit(kind, traits, case, parameter view) for every case of every material.
+template <class Visit>
+void for_every_case(Visit&& visit) {
+  const auto of_kind = [&]<template <template <class> class> class Record>(
+                           MaterialKind kind, const MaterialTraits& traits,
+                           const std::vector<Case<Record>>& all) {
+    for (const Case<Record>& c : all) {
+      SCOPED_TRACE(std::string(traits.name) + ", " + c.name);
+      RowTable<Record> table(3);  // the row in use has others around it
+      table.set(0, c.parameters);
+      table.set(1, c.parameters);
+      visit(kind, traits, c, ParameterView{table.view().words, 3});
+    }
+  };
+#define YAT_MATERIAL(file, Type) \
+  of_kind(MaterialKind::k##Type, k##Type##Traits, cases(Type##Parameters<Value>{}));
+  YAT_MATERIALS(YAT_MATERIAL)
+#undef YAT_MATERIAL
+}
+
+// ---- Batches ---------------------------------------------------------------------------------
+
+/// Columns of one BsdfBatch.
+struct Batch {
+  uint32_t n;
+  GuardedColumn<float> wo_x, wo_y, wo_z, wi_x, wi_y, wi_z, u_lobe, u, v, f_r, f_g, f_b, pdf;
+  AlignedArray<uint32_t> parameter;
+  explicit Batch(uint32_t rows)
+      : n(rows),
+        wo_x(n),
+        wo_y(n),
+        wo_z(n),
+        wi_x(n),
+        wi_y(n),
+        wi_z(n),
+        u_lobe(n),
+        u(n),
+        v(n),
+        f_r(n),
+        f_g(n),
+        f_b(n),
+        pdf(n),
+        parameter(n) {
+    for (uint32_t i = 0; i < n; ++i) parameter[i] = 1;
+  }
+  KernelTable::BsdfBatch columns() {
+    return {wo_x.data(), wo_y.data(),   wo_z.data(), wi_x.data(), wi_y.data(),
+            wi_z.data(), u_lobe.data(), u.data(),    v.data(),    parameter.data(),
+            f_r.data(),  f_g.data(),    f_b.data(),  pdf.data()};
+  }
+  void set_wo(uint32_t i, const glm::dvec3& w) {
+    wo_x[i] = float(w.x), wo_y[i] = float(w.y), wo_z[i] = float(w.z);
+  }
+  void set_wi(uint32_t i, const glm::dvec3& w) {
+    wi_x[i] = float(w.x), wi_y[i] = float(w.y), wi_z[i] = float(w.z);
+  }
+  glm::dvec3 wo(uint32_t i) const { return {wo_x[i], wo_y[i], wo_z[i]}; }
+  glm::dvec3 wi(uint32_t i) const { return {wi_x[i], wi_y[i], wi_z[i]}; }
+  glm::dvec3 f(uint32_t i) const { return {f_r[i], f_g[i], f_b[i]}; }
+  bool untouched() const {
+    return wi_x.untouched() && wi_y.untouched() && wi_z.untouched() && f_r.untouched() &&
+           f_g.untouched() && f_b.untouched() && pdf.untouched();
+  }
+};
+
+glm::dvec3 at_cosine(double cos, double phi) {
+  const double sin = std::sqrt(std::max(0., 1 - cos * cos));
+  return {sin * std::cos(phi), sin * std::sin(phi), cos};
+}
+
+/// The cosines of the numeric matrix (B1), both sides.
+constexpr double kCosines[] = {1, .7, .5, 1e-2, 1e-4, 1e-7, 0, -1e-7, -.3, -1};
+
+class Materials : public PerIsa {};
+YAT_INSTANTIATE_PER_ISA(Materials);
+
+TEST_P(Materials, EvaluateIsTheFormulaAtEveryCount) {
+  const KernelTable& k = kernels();
+  Random random(1);
+  for_every_case([&](MaterialKind kind, const MaterialTraits&, const auto& c, ParameterView view) {
+    for (const uint32_t n : tail_counts(k.lanes)) {
+      Batch b(n);
+      for (uint32_t i = 0; i < n; ++i) {
+        b.set_wo(i, random.direction());
+        b.set_wi(i, random.direction());
+      }
+      k.bsdf_evaluate[uint32_t(kind)](view, b.columns(), n);
+      EXPECT_TRUE(b.untouched());
+      for (uint32_t i = 0; i < n; ++i) {
+        const double side = b.wo_z[i] > 0 ? 1 : -1;  // two-sided: both z turned
+        const glm::dvec3 turn(1, 1, side);
+        const glm::dvec3 f = c.f ? c.f(b.wo(i) * turn, b.wi(i) * turn) : glm::dvec3(0);
+        expect_near(b.f(i), f, 2e-6, "f", i);
+        if (!c.f) {
+          EXPECT_EQ(b.pdf[i], 0.f);
+        }
+      }
+    }
+  });
+}
+
+// B1 and B4: cosines down to 0, both sides, the first and the last random number. Weights are
+// f cos / pdf, directions unit and on their side.
+TEST_P(Materials, SamplesAreFiniteAndWeightsAreRatios) {
+  const KernelTable& k = kernels();
+  const float corners[] = {0, .25f, .5f, kAlmostOne};
+  for_every_case(
+      [&](MaterialKind kind, const MaterialTraits& traits, const auto&, ParameterView view) {
+        Batch b(10 * 64);
+        uint32_t n = 0;
+        for (const double cos : kCosines)
+          for (uint32_t corner = 0; corner < 64; ++corner, ++n) {
+            b.set_wo(n, at_cosine(cos, .3 + n));
+            b.u_lobe[n] = corners[corner & 3];
+            b.u[n] = corners[corner >> 2 & 3];
+            b.v[n] = corners[corner >> 4];
+          }
+        k.bsdf_sample[uint32_t(kind)](view, b.columns(), n);
+        Batch e(n);
+        for (uint32_t i = 0; i < n; ++i) {
+          e.set_wo(i, b.wo(i));
+          e.set_wi(i, b.wi(i));
+        }
+        k.bsdf_evaluate[uint32_t(kind)](view, e.columns(), n);
+        for (uint32_t i = 0; i < n; ++i) {
+          for (const float w : {b.f_r[i], b.f_g[i], b.f_b[i], b.pdf[i], e.f_r[i], e.pdf[i]}) {
+            EXPECT_TRUE(std::isfinite(w) && w >= 0) << "row " << i << ": " << w;
+          }
+          if (b.f_r[i] == 0) continue;
+          expect_close(glm::length(b.wi(i)), 1, 1e-6, "|wi|", i);
+          if (traits.delta) {
+            EXPECT_EQ(b.pdf[i], 0.f);
+            continue;
+          }
+          EXPECT_GT(b.pdf[i], 0.f);
+          expect_close(double(b.pdf[i]), double(e.pdf[i]), 1e-4, "pdf", i);
+          const double cos = std::abs(b.wi(i).z);
+          const glm::dvec3 ratio = e.f(i) * cos / double(e.pdf[i]);
+          expect_near(b.f(i), ratio, 1e-4 * glm::length(ratio), "weight", i);
+        }
+      });
+}
+
+TEST_P(Materials, ScatteringIsReciprocal) {
+  const KernelTable& k = kernels();
+  Random random(3);
+  for_every_case(
+      [&](MaterialKind kind, const MaterialTraits& traits, const auto&, ParameterView view) {
+        if (traits.delta) return;
+        constexpr uint32_t n = 4096;
+        Batch there(n), back(n);
+        for (uint32_t i = 0; i < n; ++i) {
+          const glm::dvec3 a = random.direction(), b = i % 8 ? random.direction() : a;
+          there.set_wo(i, a);
+          there.set_wi(i, b);
+          back.set_wo(i, b);
+          back.set_wi(i, a);
+        }
+        k.bsdf_evaluate[uint32_t(kind)](view, there.columns(), n);
+        k.bsdf_evaluate[uint32_t(kind)](view, back.columns(), n);
+        for (uint32_t i = 0; i < n; ++i)
+          expect_near(there.f(i), back.f(i), 1e-4 * glm::length(back.f(i)), "f reversed", i);
+      });
+}
+
+// Mean weight over a regular grid: the directional albedo. No material makes energy, beyond what
+// its own formula is known to.
+TEST_P(Materials, FurnaceIsNeverBrighterThanItsLight) {
+  const KernelTable& k = kernels();
+  constexpr uint32_t kSide = 128, n = kSide * kSide;
+  for_every_case([&](MaterialKind kind, const MaterialTraits&, const auto& c, ParameterView view) {
+    for (const double cos : {1., .5, .1, 1e-3, -.4}) {
+      Batch b(n);
+      for (uint32_t i = 0; i < n; ++i) {
+        b.set_wo(i, at_cosine(cos, 1));
+        b.u[i] = (float(i % kSide) + .5f) / kSide;
+        b.v[i] = (float(i / kSide) + .5f) / kSide;
+        b.u_lobe[i] = (float(i) + .5f) / n;
+      }
+      k.bsdf_sample[uint32_t(kind)](view, b.columns(), n);
+      glm::dvec3 sum(0);
+      for (uint32_t i = 0; i < n; ++i) {
+        // Radiance grows by (n_o / n_i)^2 through glass; energy does not.
+        double scale = 1;
+        if constexpr (requires { c.parameters.index; })
+          if (b.wi_z[i] * b.wo_z[i] < 0) {
+            const double index = double(c.parameters.index);
+            scale = b.wo_z[i] > 0 ? index * index : 1 / (index * index);
+          }
+        sum += b.f(i) * scale;
+      }
+      const glm::dvec3 albedo = sum / double(n);
+      EXPECT_LE(std::max({albedo.x, albedo.y, albedo.z}), c.albedo + 1e-6) << "cos " << cos;
+      if (!c.f) continue;
+      // Against the formula, integrated by itself over cos and phi. Grazing, the grid above misses
+      // some of the bright rim.
+      glm::dvec3 wanted(0);
+      for (int i = 0; i < 128; ++i)
+        for (int j = 0; j < 256; ++j)
+          wanted += c.f(at_cosine(std::abs(cos), 1),
+                        at_cosine((i + .5) / 128, (j + .5) / 256 * 2 * kPi)) *
+                    ((i + .5) / 128 * 2 * kPi / (128 * 256));
+      expect_near(albedo, wanted, std::abs(cos) < .01 ? 2e-2 : 2e-3, "albedo", 0);
+    }
+  });
+}
+
+// Chi-square over (cos, phi) cells, expectations from the pdf by quadrature; the pdf's integral.
+TEST_P(Materials, SamplesFollowTheirDensity) {
+  const KernelTable& k = kernels();
+  constexpr int kRows = 21, kColumns = 40, kSub = 6;
+  constexpr uint32_t n = 1 << 19, kGrid = kRows * kColumns * kSub * kSub;
+  const double cosines[] = {1, .6, .2, .01, -.5};
+  AlignedArray<float> u(n), v(n);
+  for (uint32_t i = 0; i < n; ++i)
+    std::tie(u[i], v[i]) = random_pair(SamplerKind::kIndependent, 4, Dimension::kBsdf, 1, i, 0);
+  Batch b(n), grid(kGrid);
+  for_every_case(
+      [&](MaterialKind kind, const MaterialTraits& traits, const auto& c, ParameterView view) {
+        if (traits.delta) return;
+        for (const double cos : cosines) {
+          const glm::dvec3 wo = at_cosine(cos, 2);
+          for (uint32_t i = 0; i < n; ++i) {
+            b.set_wo(i, wo);
+            b.u[i] = u[i], b.v[i] = v[i], b.u_lobe[i] = 0;
+          }
+          k.bsdf_sample[uint32_t(kind)](view, b.columns(), n);
+          std::vector<double> seen(kRows * kColumns), wanted(kRows * kColumns);
+          double rejected = 0;
+          for (uint32_t i = 0; i < n; ++i) {
+            if (b.pdf[i] <= 0) {
+              ++rejected;
+              continue;
+            }
+            const glm::dvec3 w = b.wi(i);
+            double turn = std::atan2(w.y, w.x) / (2 * kPi);
+            if (turn < 0) turn += 1;
+            const int row = std::clamp(int((w.z + 1) / 2 * kRows), 0, kRows - 1);
+            const int column = std::clamp(int(turn * kColumns), 0, kColumns - 1);
+            ++seen[size_t(row * kColumns + column)];
+          }
+          // kSub^2 midpoints a cell; the horizon falls inside the middle row, between midpoints.
+          const double area = 4 * kPi / kGrid;
+          for (uint32_t i = 0; i < kGrid; ++i) {
+            const uint32_t y = i / (kColumns * kSub), x = i % (kColumns * kSub);
+            grid.set_wo(i, wo);
+            grid.set_wi(i, at_cosine((y + .5) / (kRows * kSub) * 2 - 1,
+                                     (x + .5) / (kColumns * kSub) * 2 * kPi));
+          }
+          k.bsdf_evaluate[uint32_t(kind)](view, grid.columns(), kGrid);
+          double integral = 0;
+          for (uint32_t i = 0; i < kGrid; ++i) {
+            const uint32_t y = i / (kColumns * kSub), x = i % (kColumns * kSub);
+            const double part = double(grid.pdf[i]) * area;
+            integral += part;
+            wanted[y / kSub * kColumns + x / kSub] += part * n;
+          }
+          EXPECT_NEAR(integral + rejected / n, 1, 1e-3);
+          EXPECT_GE(chi2_p_value(seen, wanted), sidak_level(5 * 6)) << c.name << ", cos " << cos;
+        }
+      });
+}
+
+// ---- Closed forms ----------------------------------------------------------------------------
+
+double exact_fresnel(double cos_o, double n_o, double n_i) {
+  const double sin_i = n_o / n_i * std::sqrt(1 - cos_o * cos_o);
+  if (sin_i >= 1) return 1;
+  const double cos_i = std::sqrt(1 - sin_i * sin_i);
+  const double s = (n_o * cos_o - n_i * cos_i) / (n_o * cos_o + n_i * cos_i);
+  const double p = (n_i * cos_o - n_o * cos_i) / (n_i * cos_o + n_o * cos_i);
+  return (s * s + p * p) / 2;
+}
+
+TEST_P(Materials, GlassSplitsByFresnelAndBendsBySnell) {
+  const KernelTable& k = kernels();
+  RowTable<GlassParameters> table(2);
+  table.set(1, {.8f, .4f, 1, .5f, 1, .25f, 1.5f});
+  const ParameterView view{table.view().words, 2};
+  constexpr uint32_t kLobes = 1024;
+  Batch b(kLobes);
+  for (const double cos : {1., .9, .5, .1, -1., -.9, -.7454, -.7, -.1}) {
+    for (uint32_t i = 0; i < kLobes; ++i) {
+      b.set_wo(i, at_cosine(cos, .7));
+      b.u_lobe[i] = (float(i) + .5f) / kLobes;
+    }
+    k.bsdf_sample[uint32_t(MaterialKind::kGlass)](view, b.columns(), kLobes);
+    const double n_o = cos > 0 ? 1 : 1.5, n_i = cos > 0 ? 1.5 : 1;
+    const double f = exact_fresnel(std::abs(cos), n_o, n_i);
+    glm::dvec3 reflected(0), refracted(0);
+    for (uint32_t i = 0; i < kLobes; ++i) {
+      const glm::dvec3 wo = b.wo(i), wi = b.wi(i);
+      if (wi.z * wo.z > 0) {
+        expect_near(wi, {-wo.x, -wo.y, wo.z}, 1e-6, "reflection", i);
+        reflected += b.f(i) / double(kLobes);
+      } else {
+        // Snell: the tangential parts, times their index, are opposite.
+        expect_near({wi.x * n_i, wi.y * n_i, 0}, {-wo.x * n_o, -wo.y * n_o, 0}, 1e-6, "Snell", i);
+        refracted += b.f(i) / double(kLobes);
+      }
+    }
+    const double scale = n_o * n_o / (n_i * n_i);  // radiance, from side i to side o
+    expect_near(reflected, glm::dvec3(.8, .4, 1) * f, 3e-3, "Kr F", 0);
+    expect_near(refracted, glm::dvec3(.5, 1, .25) * (1 - f) * scale, 6e-3, "Kt (1 - F)", 0);
+    if (f == 1) {
+      EXPECT_EQ(glm::length(refracted), 0) << "total internal reflection";
+    }
+  }
+}
+
+TEST_P(Materials, CosineAveragedFresnelOfGlass) {
+  const KernelTable& k = kernels();
+  RowTable<GlassParameters> table(1);
+  table.set(0, {1, 1, 1, 0, 0, 0, 1.5f});  // reflection only: the weight is F
+  constexpr uint32_t n = 4096;
+  Batch b(n);
+  for (uint32_t i = 0; i < n; ++i) {
+    b.set_wo(i, at_cosine(std::sqrt((i + .5) / n), i));
+    b.parameter[i] = 0;
+    b.u_lobe[i] = 0;
+  }
+  k.bsdf_sample[uint32_t(MaterialKind::kGlass)](ParameterView{table.view().words, 1}, b.columns(),
+                                                n);
+  double sum = 0;
+  for (uint32_t i = 0; i < n; ++i) sum += double(b.f_r[i]);
+  EXPECT_NEAR(sum / n, 0.091777959, 1e-4);
+}
+
+TEST_P(Materials, MirrorAndNull) {
+  const KernelTable& k = kernels();
+  Random random(8);
+  RowTable<MirrorParameters> table(2);
+  table.set(1, {.5f, .25f, 1});
+  Batch b(100), through(100);
+  for (uint32_t i = 0; i < 100; ++i) {
+    b.set_wo(i, random.direction());
+    through.set_wo(i, b.wo(i));
+  }
+  k.bsdf_sample[uint32_t(MaterialKind::kMirror)]({table.view().words, 2}, b.columns(), 100);
+  k.bsdf_sample[uint32_t(MaterialKind::kNull)]({table.view().words, 2}, through.columns(), 100);
+  for (uint32_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(b.wi(i), glm::dvec3(-b.wo(i).x, -b.wo(i).y, b.wo(i).z));
+    EXPECT_EQ(b.f(i), glm::dvec3(.5, .25, 1));
+    EXPECT_EQ(through.wi(i), -b.wo(i));
+    EXPECT_EQ(through.f(i), glm::dvec3(1));
+  }
+}
+
+}  // namespace
+}  // namespace yat
