@@ -1,0 +1,240 @@
+// Traversal where numbers are at their limits: watertightness, poison, huge scenes, self hits.
+
+#include <limits>
+
+#include "per_isa.h"
+#include "traverse_scenes.h"
+
+namespace yat {
+namespace {
+
+using namespace testing_traverse;
+
+class TraverseLimits : public PerIsa {
+ protected:
+  ThreadPool pool{1};
+  Tree build(const Mesh& mesh) {
+    Tree tree = build_tree(mesh.rows.view(), {}, {16, false}, pool);
+    EXPECT_EQ(verify_tree(tree, mesh.rows.view()), "");
+    return tree;
+  }
+};
+YAT_INSTANTIATE_PER_ISA(TraverseLimits);
+
+// I1. Rays from inside a closed mesh leave it nowhere.
+TEST_P(TraverseLimits, ClosedMeshesAreWatertight) {
+  struct Place {
+    double scale;
+    Vec center;
+  };
+  std::vector<Place> places = {{2, {148376, 1234, -223423}}};
+  for (const double scale : {1e-6, 1e-3, 1., 1e3, 1e6}) {
+    places.push_back({scale, {}});
+    places.push_back({scale, {30 * scale, -1000 * scale, 7 * scale}});
+  }
+  for (const Place& place : places)
+    for (const double jitter : {0.0, 0.1}) {
+      const Mesh mesh = closed_sphere(30, place.center, place.scale, jitter);
+      const Tree tree = build(mesh);
+      Rng rng(31);
+      std::vector<Ray<Value>> rays;
+      for (uint32_t i = 0; i < 20000; ++i) {
+        const Vec o = place.center + random_point(rng, 0.4 * place.scale);
+        const Ray<Value> at = make_ray(o, {1, 0, 0});
+        const Vec from{double(at.org_x), double(at.org_y), double(at.org_z)};
+        const uint32_t prim = rng() % uint32_t(mesh.list.size());
+        const Vec a = mesh.corner(prim, int(rng() % 3)), b = mesh.corner(prim, 0);
+        Vec d = random_direction(rng);
+        if (i % 3 == 1) d = unit(a - from);
+        if (i % 3 == 2) d = unit(a + (b - a) * uniform(rng) - from);
+        rays.push_back(make_ray(o, d));
+      }
+      const std::vector<Hit<Value>> hits = trace(kernels(), tree.view, rays);
+      uint32_t leaks = 0;
+      for (const auto& h : hits) leaks += h.prim == kNone;
+      EXPECT_EQ(leaks, 0u) << "scale " << place.scale << " at " << place.center.x << " jitter "
+                           << jitter;
+    }
+}
+
+// Rays from far outside that aim at a closed mesh's inside meet it.
+TEST_P(TraverseLimits, FarOriginsStillHit) {
+  const Mesh mesh = closed_sphere(24, {}, 1);
+  const Tree tree = build(mesh);
+  for (const double distance : {3., 30., 1e3, 1e5}) {
+    Rng rng(7);
+    std::vector<Ray<Value>> rays, segments;
+    for (uint32_t i = 0; i < 5000; ++i) {
+      const Vec o = random_direction(rng) * distance;
+      const Vec target = random_direction(rng) * 0.5;
+      rays.push_back(make_ray(o, unit(target - o)));
+      segments.push_back(make_ray(o, target - o));
+    }
+    const std::vector<Hit<Value>> hits = trace(kernels(), tree.view, rays);
+    const std::vector<uint32_t> occluded = trace_shadow(kernels(), tree.view, segments);
+    for (uint32_t i = 0; i < rays.size(); ++i) {
+      ASSERT_NE(hits[i].prim, kNone) << "distance " << distance << " ray " << i;
+      ASSERT_NEAR(double(hits[i].t), distance, 1.01 + distance * 1e-6);
+      ASSERT_EQ(occluded[i], 1u);
+    }
+  }
+}
+
+// I5. A poisoned ray misses, and its neighbours do not notice.
+TEST_P(TraverseLimits, PoisonedRaysMissAlone) {
+  const Mesh mesh = soup(500, 0.3, 3);
+  const Tree tree = build(mesh);
+  const std::vector<Ray<Value>> clean = rays_through(mesh, 300, 4);
+  const std::vector<Hit<Value>> expected = trace(kernels(), tree.view, clean);
+  std::vector<Ray<Value>> segments = clean;
+  const std::vector<uint32_t> clean_shadow = trace_shadow(kernels(), tree.view, segments);
+  const float nan = std::numeric_limits<float>::quiet_NaN(),
+              inf = std::numeric_limits<float>::infinity();
+  for (const float poison : {nan, inf, -inf})
+    for (uint32_t field = 0; field < 7; ++field) {
+      std::vector<Ray<Value>> rays = clean;
+      const auto spoiled = [](uint32_t i) { return i % 7 == 3 || (i > 100 && i < 120); };
+      for (uint32_t i = 0; i < rays.size(); ++i)
+        if (spoiled(i)) (&rays[i].org_x)[field] = poison;
+      const std::vector<Hit<Value>> hits = trace(kernels(), tree.view, rays);
+      const std::vector<uint32_t> shadow = trace_shadow(kernels(), tree.view, rays);
+      for (uint32_t i = 0; i < rays.size(); ++i) {
+        if (spoiled(i)) {
+          if (field == 6 && poison == inf) continue;  // No limit at all is a fair wish.
+          ASSERT_EQ(hits[i].prim, kNone) << poison << " in field " << field << " ray " << i;
+          if (field < 6) {
+            ASSERT_EQ(shadow[i], 0u);
+          }
+        } else {
+          ASSERT_TRUE(same_bits(hits[i], expected[i])) << poison << " field " << field;
+          ASSERT_EQ(shadow[i], clean_shadow[i]);
+        }
+      }
+    }
+  std::vector<Ray<Value>> still(20, make_ray({}, {0, 0, 0}));
+  for (const auto& h : trace(kernels(), tree.view, still)) EXPECT_EQ(h.prim, kNone);
+  std::vector<Ray<Value>> tiny(20, make_ray({}, {1e-40, 0, 0}));
+  trace(kernels(), tree.view, tiny);
+}
+
+// I2. Triangles of any size are hit at their middle.
+TEST_P(TraverseLimits, TrianglesOfAnySize) {
+  for (int e = -18; e <= 18; e += 2) {
+    const double s = std::pow(10., e);
+    Mesh mesh;
+    mesh.add({-s, -s, 2 * s}, {s, -s, 2 * s}, {0, 2 * s, 2 * s});
+    mesh.done();
+    const Tree tree = build(mesh);
+    const std::vector<Ray<Value>> rays(3, make_ray({0, 0, 0}, {0, 0, 1}));
+    for (const auto& h : trace(kernels(), tree.view, rays)) {
+      ASSERT_EQ(h.prim, 0u) << "size 1e" << e;
+      ASSERT_NEAR(double(h.t) / (2 * s), 1, 1e-6);
+    }
+  }
+}
+
+// I8. A cube 5.9e11 wide and 1.2e5 high: no invented hits.
+TEST_P(TraverseLimits, HugeFlatBox) {
+  Mesh mesh;
+  add_box(mesh, {-2.95e11, -2.95e11, -6e4}, {2.95e11, 2.95e11, 6e4});
+  mesh.done();
+  const Tree tree = build(mesh);
+  Rng rng(2);
+  std::vector<Ray<Value>> rays;
+  for (uint32_t i = 0; i < 5000; ++i) {
+    const Vec o{uniform(rng, -1e11, 1e11), uniform(rng, -1e11, 1e11), uniform(rng, -5e4, 5e4)};
+    rays.push_back(make_ray(o, random_direction(rng)));
+  }
+  const std::vector<Hit<Value>> hits = trace(kernels(), tree.view, rays);
+  uint32_t found = 0;
+  for (uint32_t i = 0; i < rays.size(); ++i) {
+    // An ulp of the corners is 32768: rays that near to a face may be on its other side.
+    found += hits[i].prim != kNone;
+    ASSERT_EQ(check_hit(mesh, rays[i], hits[i]), "") << "ray " << i;
+  }
+  EXPECT_GT(found, 4900u);
+}
+
+// I4. Degenerate triangles are never hit; what has area between them is.
+TEST_P(TraverseLimits, DegenerateTrianglesAreNeverHit) {
+  Mesh mesh;
+  Rng rng(4);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (uint32_t i = 0; i < 200; ++i) {
+    const Vec a = random_point(rng), b = random_point(rng);
+    mesh.add(a, a, b);
+    mesh.add(a, a, a);
+    mesh.add({0, 0, 0}, {1, 2, 3}, {2, 4, 6});
+    mesh.add(a, {double(nan), 0, 0}, b);
+    mesh.add(a, {double(std::numeric_limits<float>::infinity()), 0, 0}, b);
+  }
+  mesh.add({-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
+  mesh.done();
+  const Tree tree = build(mesh);
+  EXPECT_EQ(tree.statistics.references, 1u);
+  uint32_t found = 0;
+  for (const auto& h : trace(kernels(), tree.view, rays_through(mesh, 3000, 9))) {
+    ASSERT_TRUE(h.prim == kNone || h.prim == 1000u);
+    found += h.prim == 1000u;
+  }
+  EXPECT_GT(found, 50u);
+}
+
+TEST_P(TraverseLimits, EmptyTree) {
+  Mesh mesh;
+  mesh.done();
+  const Tree tree = build(mesh);
+  const std::vector<Ray<Value>> rays(33, make_ray({}, {0, 0, 1}, 5));
+  for (const auto& h : trace(kernels(), tree.view, rays)) {
+    EXPECT_EQ(h.prim, kNone);
+    EXPECT_EQ(h.t, 5.f);
+  }
+  for (const uint32_t o : trace_shadow(kernels(), tree.view, rays)) EXPECT_EQ(o, 0u);
+}
+
+// S1. A ray that starts off its triangle by 32 ulp of the vertices' magnitude does not meet it or
+// its coplanar neighbour.
+TEST_P(TraverseLimits, SpawnedRaysDoNotHitTheirOwnSurface) {
+  for (const double scale : {1e-6, 1e-3, 1., 1e3, 1e6})
+    for (const double away : {0., 1., 1e3}) {
+      Rng rng(17);
+      uint32_t self_hits = 0;
+      for (uint32_t trial = 0; trial < 40; ++trial) {
+        const Vec c = random_direction(rng) * (away * scale);
+        const Vec e1 = random_direction(rng) * scale, e2 = random_direction(rng) * scale;
+        Mesh mesh;
+        mesh.quad(c, c + e1, c + e1 + e2, c + e2);
+        mesh.done();
+        const Tree tree = build(mesh);
+        std::vector<Ray<Value>> rays;
+        for (uint32_t i = 0; i < 500; ++i) {
+          const uint32_t prim = i & 1;
+          const Vec p0 = mesh.corner(prim, 0), p1 = mesh.corner(prim, 1), p2 = mesh.corner(prim, 2);
+          const Vec normal = unit(cross(p1 - p0, p2 - p0));
+          const float* const p = &mesh.list[prim].p0_x;
+          float magnitude[3] = {};
+          for (int k = 0; k < 9; ++k) magnitude[k % 3] = std::max(magnitude[k % 3], std::abs(p[k]));
+          const double extent = double(std::max({magnitude[0], magnitude[1], magnitude[2]}));
+          const double offset = extent *
+                                (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z)) *
+                                32 * 0x1p-23;
+          double u = uniform(rng), v = uniform(rng);
+          if (u + v > 1) u = 1 - u, v = 1 - v;
+          // As the surface stage does it: in float, from barycentrics.
+          float pos[3];
+          const float fu = float(u), fv = float(v), fw = 1.f - fu - fv;
+          for (int a = 0; a < 3; ++a) pos[a] = fw * p[a] + fu * p[3 + a] + fv * p[6 + a];
+          Vec d = random_direction(rng);
+          if (i % 5 == 0) d = unit(d - normal * (dot(d, normal) * 0.999));  // Grazing.
+          const double side = dot(d, normal) >= 0 ? 1 : -1;
+          const Vec o{double(pos[0]), double(pos[1]), double(pos[2])};
+          rays.push_back(make_ray(o + normal * (side * offset), d));
+        }
+        for (const auto& h : trace(kernels(), tree.view, rays)) self_hits += h.prim != kNone;
+      }
+      EXPECT_EQ(self_hits, 0u) << "scale " << scale << ", " << away << " scales away";
+    }
+}
+
+}  // namespace
+}  // namespace yat
