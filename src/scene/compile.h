@@ -37,6 +37,7 @@ struct CompileOptions {
 /// The compiled scene: owns all columns.
 struct Scene {
   glm::dvec3 center{0.0};  ///< world position of the scene-space origin
+  float radius = 1;        ///< around the origin: holds the camera and all but planes [m]
   FilmSettings film;
   int32_t max_depth = 16;    ///< from SurfaceIntegrator
   bool direct_only = false;  ///< SurfaceIntegrator "directlighting"

@@ -1,0 +1,15 @@
+# Description -> Scene.
+target_sources(
+  yat_scene
+  PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/alias_table.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_camera.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_film.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_filter.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_geometry.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_lights.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_materials.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_shapes.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_textures.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/data_files.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/parameters.cpp)

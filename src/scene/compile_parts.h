@@ -1,0 +1,239 @@
+#pragma once
+// The parts of compile_scene(), one per kind of statement. Each reads its plugins through
+// Parameters, so that diagnostics are alike everywhere.
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/compile.h"
+#include "scene/description.h"
+#include "scene/parameters.h"
+
+namespace yat {
+
+/// Luminance of linear Rec.709, scaled so that (1,1,1) has 1 (lxs section 9).
+inline double luminance(const glm::dvec3& c) {
+  return .21264 * c.x + .71517 * c.y + .07219 * c.z;
+}
+
+// ---- Rendering options (lxs 3, 4) ------------------------------------------------------------
+
+FilmSettings compile_film(const Description& description, const CompileOptions& options,
+                          Diagnostics& diagnostics);
+
+struct FilterTables {
+  std::vector<float> marginal, conditional, sign;  ///< empty where `box`
+  float radius_x = .5f, radius_y = .5f;            ///< [pixels]
+  bool box = true;
+};
+/// Integrates the filter over kFilterBins^2 cells of [-radius, radius]^2.
+FilterTables compile_filter(const std::optional<Plugin>& filter, Diagnostics& diagnostics);
+
+struct CameraSetup {
+  CameraView view{};
+  bool thin_lens = false;
+};
+CameraSetup compile_camera(const Description& description, const FilmSettings& film,
+                           const glm::dvec3& center, Diagnostics& diagnostics);
+/// World position of the camera; the origin if its transform cannot be inverted.
+glm::dvec3 camera_position(const Description& description);
+
+struct IntegratorSettings {
+  int32_t max_depth = 16;
+  bool direct_only = false;
+};
+IntegratorSettings compile_integrator(const std::optional<Plugin>& integrator,
+                                      Diagnostics& diagnostics);
+
+// ---- Textures and materials (lxs 7, 8) -------------------------------------------------------
+
+/// A colour parameter that may be a texture, as one colour for the whole surface: constants and
+/// arithmetic of constants exactly, images by their mean (with a warning), others as `fallback`
+/// (with a warning).
+glm::dvec3 color_parameter(Parameters& parameters, std::string_view name,
+                           const glm::dvec3& fallback, const Description& description);
+/// The same for a float parameter.
+double float_parameter(Parameters& parameters, std::string_view name, double fallback,
+                       const Description& description);
+
+/// Where a shape's material is in the parameter tables.
+struct MaterialRef {
+  MaterialKind kind = MaterialKind::kMatte;
+  uint32_t row = 0;
+};
+
+/// Turns material entries into parameter rows, each once.
+class MaterialCompiler {
+ public:
+  MaterialCompiler(const Description& description, Diagnostics& diagnostics)
+      : description_(description),
+        diagnostics_(diagnostics),
+        done_(description.materials.size() + 1) {}
+
+  /// entry: row of Description::materials, or kNone for the default matte.
+  MaterialRef compile(uint32_t entry);
+  /// Moves the tables into the scene.
+  void finish(Scene& scene);
+
+ private:
+  template <template <template <class> class> class Record>
+  MaterialRef add(MaterialKind kind, const Record<Value>& record);
+  MaterialRef add_matte(const glm::dvec3& kd, double sigma_degrees);
+  MaterialRef add_mirror(const glm::dvec3& kr);
+  MaterialRef add_glass(const glm::dvec3& kr, const glm::dvec3& kt, double index);
+  MaterialRef build(const Plugin& plugin);
+  MaterialRef build_unsupported(Parameters& parameters);
+  glm::dvec3 reflectance(Parameters& parameters, std::string_view name, double fallback);
+
+  const Description& description_;
+  Diagnostics& diagnostics_;
+  std::vector<std::optional<MaterialRef>> done_;
+  std::array<std::vector<uint32_t>, kMaterialKinds> words_;
+  std::array<uint32_t, kMaterialKinds> rows_{};
+};
+
+// ---- Shapes (lxs 5) --------------------------------------------------------------------------
+
+/// A triangle mesh in object space. Spans are into the description, or into `owned`.
+struct Mesh {
+  std::span<const float> positions;  ///< 3 per vertex
+  std::span<const float> normals;    ///< 3 per vertex, or empty: flat
+  std::span<const float> uvs;        ///< 2 per vertex, or empty
+  std::vector<uint32_t> indices;     ///< 3 per triangle, all below the vertex count
+  std::vector<float> owned_positions, owned_normals, owned_uvs;
+  bool normals_from_file = false;  ///< bad ones are worth a warning
+  Mesh() = default;
+  Mesh(Mesh&&) = default;  // spans into `owned` stay right when moved, not when copied
+  Mesh& operator=(Mesh&&) = default;
+  uint32_t vertices() const { return uint32_t(positions.size() / 3); }
+  uint32_t triangles() const { return uint32_t(indices.size() / 3); }
+};
+
+/// A shape ready to be placed: exactly one of the three.
+struct CompiledShape {
+  enum class Kind { kMesh, kSphere, kPlane } kind = Kind::kMesh;
+  Mesh mesh;
+  double radius = 1;                 ///< sphere, object space
+  glm::dvec3 normal{0, 0, 1};        ///< plane through the origin, object space
+  std::optional<double> light_area;  ///< quadrics: the area of light power, object space (lxs 6.2)
+};
+
+/// Reads a shape's parameters. Empty when it cannot be used (the reason has been reported).
+std::optional<CompiledShape> compile_shape(const ShapeEntry& shape, const Description& description,
+                                           Diagnostics& diagnostics);
+
+/// Finds a data file by lxs 1.5; empty if there is none. `loc` is the parameter that names it.
+std::string find_data_file(const std::string& name, SourceLoc loc, const Description& description,
+                           Diagnostics& diagnostics);
+
+/// An affine map to world space and what follows from it.
+struct Placement {
+  glm::dmat3 linear{1.0};
+  glm::dvec3 origin{0.0};
+  glm::dmat3 normal_map{1.0};   ///< inverse transpose of linear
+  bool mirrored = false;        ///< determinant < 0
+  std::optional<double> scale;  ///< of a similarity transform
+  glm::dvec3 point(const glm::dvec3& p) const { return linear * p + origin; }
+};
+
+/// Empty, and reported as an error, for a singular or non-finite matrix.
+std::optional<Placement> make_placement(const Matrix& matrix, SourceLoc loc,
+                                        const std::string& what, Diagnostics& diagnostics);
+
+/// Part of a sphere around the origin, z in [z0, z1] and phi in [0, phi_max] (radians), as 128
+/// rings of 256 quads with exact normals. Normals and winding point outwards.
+Mesh make_sphere_mesh(double radius, double z0, double z1, double phi_max);
+
+/// World-space area of a mesh; triangles with non-finite vertices count nothing.
+double mesh_area(const Mesh& mesh, const Placement& placement);
+
+/// One copy of a shape in the world.
+struct PlacedShape {
+  const CompiledShape* shape = nullptr;
+  SourceLoc loc;
+  Placement placement;
+  bool reverse_orientation = false;
+  MaterialRef material;
+  glm::dvec3 radiance{0.0};  ///< > 0 in some channel: emissive
+  bool emissive() const { return radiance.x > 0 || radiance.y > 0 || radiance.z > 0; }
+};
+
+struct Bounds;
+/// Grows `bounds` by the finite points of the shape; planes have none.
+void add_to_bounds(const PlacedShape& placed, Bounds& bounds);
+
+/// Collects rows in scene space; see compile_geometry.cpp.
+class GeometryRows {
+ public:
+  GeometryRows(const glm::dvec3& center, Diagnostics& diagnostics)
+      : center_(center), diagnostics_(diagnostics) {}
+  void add(const PlacedShape& placed);
+  /// Writes tables, bins and the tree's input into the scene. `occludes` stays empty if all do.
+  void finish(Scene& scene, std::vector<uint8_t>& occludes);
+  std::vector<LightRow<Value>>& lights() { return lights_; }
+
+ private:
+  void add_mesh(const PlacedShape& placed, const Mesh& mesh);
+  void add_sphere(const PlacedShape& placed);
+  void add_plane(const PlacedShape& placed);
+  uint32_t bin_key(GeometryKind geometry, const PlacedShape& placed) const;
+
+  /// Rows [first, ..) of a primitive kind that share a bin.
+  struct Run {
+    uint32_t first, key;
+  };
+  glm::dvec3 center_;
+  Diagnostics& diagnostics_;
+  std::vector<TriangleRow<Value>> triangles_;
+  std::vector<Run> triangle_runs_;
+  std::vector<TriangleVertexRow<Value>> vertices_;  ///< of runs with kTriangleVertex, in order
+  std::vector<SphereRow<Value>> spheres_;
+  std::vector<PlaneRow<Value>> planes_;
+  std::vector<uint32_t> sphere_keys_, plane_keys_;
+  std::vector<LightRow<Value>> lights_;
+  uint32_t degenerate_ = 0;
+};
+
+// ---- Lights (lxs 6) --------------------------------------------------------------------------
+
+/// What an AreaLightSource statement asks for.
+struct AreaLight {
+  glm::dvec3 color{1.0};  ///< L * gain, negative channels clamped to 0
+  double luminance = 1;   ///< Y(L), gain left out
+  double power = 100, efficacy = 17;
+  SourceLoc loc;
+};
+/// Empty if the statement cannot be used (reported).
+std::optional<AreaLight> compile_area_light(const AreaLightEntry& entry,
+                                            const Description& description,
+                                            Diagnostics& diagnostics);
+/// Radiance by the power rule of lxs 6.2 for a shape of this area [m2].
+glm::dvec3 area_light_radiance(const AreaLight& light, double area, Diagnostics& diagnostics);
+
+/// Box around everything finite.
+struct Bounds {
+  glm::dvec3 min{1e300}, max{-1e300};
+  void add(const glm::dvec3& p) {
+    min = glm::min(min, p);
+    max = glm::max(max, p);
+  }
+  bool empty() const { return !(min.x <= max.x); }
+  glm::dvec3 center() const { return .5 * min + .5 * max; }
+  double radius() const { return empty() ? 0 : .5 * glm::length(max - min); }
+};
+
+/// Appends point and distant lights to `rows`.
+void compile_light(const LightEntry& entry, const Description& description,
+                   const glm::dvec3& center, std::vector<LightRow<Value>>& rows,
+                   Diagnostics& diagnostics);
+
+/// Emitted power [W, luminance-weighted] of a light row: what it is chosen by.
+double light_power(const LightRow<Value>& light, double scene_radius);
+
+/// Fills the scene's light tables: probabilities by power, alias table.
+void finish_lights(std::vector<LightRow<Value>> rows, double scene_radius, Scene& scene);
+
+}  // namespace yat

@@ -1,0 +1,240 @@
+// Lights: radiance by LuxRender's units, positions, and the table they are chosen from.
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "scene/alias_table.h"
+#include "scene/compile_parts.h"
+#include "scene_builder.h"
+
+namespace yat {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double y_of(const LightRow<Value>& l) {
+  return luminance({double(l.radiance_r), double(l.radiance_g), double(l.radiance_b)});
+}
+Matrix scale(double x, double y, double z) {
+  return glm::scale(Matrix(1.), glm::dvec3(x, y, z));
+}
+Matrix translate(double x, double y, double z) {
+  return glm::translate(Matrix(1.), glm::dvec3(x, y, z));
+}
+std::vector<Parameter> plain(float gain) {
+  return {number("power", 0), number("efficacy", 0), number("gain", gain)};
+}
+
+using CompileLights = SceneTest;
+
+// The lamp of a known scene: measured 741.5 with the classic renderer.
+TEST_F(CompileLights, PowerRule) {
+  const uint32_t lamp = area_light({number("power", 100), number("efficacy", 17), number("gain", 2),
+                                    color("L", 1.f, .91917193f, .62339652f),
+                                    number("importance", 1), integers("nsamples", {1})});
+  const float h = .050000000745058f;
+  shape(plugin("trianglemesh",
+               {integers("indices", {0, 1, 2, 0, 2, 3}),
+                numbers(ParameterType::kPoint, "P", {-h, h, 0, h, h, 0, h, -h, 0, -h, -h, 0})}),
+        translate(.12, 2.86, 5.45) *
+            scale(12.080706596374512, 12.080706596374512, 12.080706596374512))
+      .area_light = lamp;
+  const Scene scene = compile();
+  ASSERT_EQ(scene.lights.size(), 2u);
+  const auto l = scene.lights.row(0);
+  // gain * power * efficacy / (pi * area); the classic renderer's own figure is rounded to 741.57.
+  EXPECT_NEAR(y_of(l), 2 * 1700 / (kPi * std::pow(12.080706596374512 * 2 * double(h), 2)), 1e-4);
+  EXPECT_NEAR(y_of(l), 741.57, .02);
+  EXPECT_NEAR(double(l.radiance_g / l.radiance_r), .91917193, 1e-6);
+  EXPECT_NEAR(l.extra, 12.0807 * 12.0807 * .1 * .1 / 2, 1e-4);
+  EXPECT_EQ(l.kind, uint32_t(LightKind::kTriangle));
+  // b x c is the outside: this lamp faces down.
+  EXPECT_LT(l.b_x * l.c_y - l.b_y * l.c_x, 0);
+  EXPECT_EQ(scene.triangles.row(1).light, 1u);
+  EXPECT_EQ(scene.light_kinds, 1u << uint32_t(LightKind::kTriangle));
+  EXPECT_FLOAT_EQ(l.probability, .5f);
+  EXPECT_SILENT();
+}
+
+TEST_F(CompileLights, WithoutPowerTheColourIsTheRadiance) {
+  shape(square(), scale(3, 3, 3)).area_light = area_light(plain(4));
+  const auto l = compile().lights.row(0);
+  EXPECT_EQ(l.radiance_r, 4);
+  EXPECT_EQ(l.radiance_b, 4);
+}
+
+TEST_F(CompileLights, SphereAreaIgnoresTheTransform) {
+  shape(plugin("sphere", {number("radius", .5f)}), translate(0, 0, 9) * scale(2, 2, 2)).area_light =
+      area_light({});
+  const Scene scene = compile();
+  const auto l = scene.lights.row(0);
+  EXPECT_EQ(l.kind, uint32_t(LightKind::kSphere));
+  EXPECT_NEAR(y_of(l), 1700 / (kPi * 4 * kPi * .25), 1e-3);
+  EXPECT_EQ(l.extra, 1);
+  EXPECT_EQ(l.b_x, 0);
+  EXPECT_EQ(scene.spheres.row(0).light, 0u);
+  EXPECT_TRUE(scene.bins[scene.prim_bin[0]].emissive);
+}
+
+TEST_F(CompileLights, InstancedLightShinesOncePerInstanceByItsOwnArea) {
+  description.objects = {{"o", {}}};
+  ShapeEntry& lamp = shape(square());
+  lamp.object = 0;
+  lamp.area_light = area_light({});
+  shape(triangle());
+  description.instances.push_back({0, scale(2, 2, 2), kNone, {}});
+  description.instances.push_back({0, translate(0, 0, 3), kNone, {}});
+  const Scene scene = compile();
+  ASSERT_EQ(scene.lights.size(), 4u);
+  for (uint32_t i = 0; i < 4; ++i) EXPECT_NEAR(y_of(scene.lights.row(i)), 1700 / (4 * kPi), 1e-3);
+  EXPECT_FLOAT_EQ(scene.lights.row(0).extra, 8);
+  // The larger copy has four times the power.
+  EXPECT_FLOAT_EQ(scene.lights.row(0).probability, .4f);
+  EXPECT_FLOAT_EQ(scene.lights.row(3).probability, .1f);
+}
+
+TEST_F(CompileLights, LightsThatCannotShine) {
+  shape(triangle());
+  shape(mesh({0, 0, 0, 1, 0, 0, 2, 0, 0}, {0, 1, 2})).area_light = area_light({});
+  shape(square()).area_light = area_light({color("L", 0, 0, 0)});
+  shape(plugin("plane", {}, 60)).area_light = 0;
+  description.area_lights.push_back({plugin("volume", {}, 70)});
+  shape(square()).area_light = 2;
+  const Scene scene = compile();
+  EXPECT_EQ(scene.lights.size(), 0u);
+  for (const Bin& bin : scene.bins) EXPECT_FALSE(bin.emissive);
+  EXPECT_SAID("scene.lxs:10:1: warning: the area light has no area: it does not shine");
+  EXPECT_SAID(
+      "scene.lxs:30:1: warning: the area light has power but no area or a black \"L\": \"L\" times "
+      "\"gain\" is taken as its radiance");
+  EXPECT_SAID("scene.lxs:60:1: warning: an infinite plane cannot be a light: it does not shine");
+  EXPECT_SAID("scene.lxs:70:1: error: unknown area light \"volume\": the shapes do not shine");
+}
+
+TEST_F(CompileLights, MirroredLampKeepsItsSideAndIsNoted) {
+  shape(square(), scale(-1, 1, 1)).area_light = area_light(plain(1));
+  const auto l = compile().lights.row(0);
+  EXPECT_GT(l.b_x * l.c_y - l.b_y * l.c_x, 0);
+  EXPECT_SAID(
+      "scene.lxs:10:1: note: a mesh light under a mirrored transform shines to the side that its "
+      "mesh says, mirrored with it (LuxRender: to the other side)");
+}
+
+TEST_F(CompileLights, PointLight) {
+  shape(triangle());
+  // Position is from + CTM * origin: `from` is neither turned nor scaled.
+  light(plugin("point", {number("gain", 3), numbers(ParameterType::kPoint, "from", {1, 2, 3})}),
+        translate(10, 0, 0) * scale(5, 5, 5));
+  light(plugin("point", {number("power", 100), number("efficacy", 17), color("L", .5f, .5f, .5f)}));
+  const Scene scene = compile();
+  const auto l = scene.lights.row(0);
+  EXPECT_EQ(l.kind, uint32_t(LightKind::kPoint));
+  EXPECT_DOUBLE_EQ(double(l.a_x) + scene.center.x, 11);
+  EXPECT_DOUBLE_EQ(double(l.a_y) + scene.center.y, 2);
+  EXPECT_EQ(l.radiance_g, 3);
+  EXPECT_NEAR(y_of(scene.lights.row(1)), 1700 / (4 * kPi), 1e-3);
+  EXPECT_NEAR(double(scene.lights.row(1).probability), 1700 / (4 * kPi) / (3 + 1700 / (4 * kPi)),
+              1e-6);
+}
+
+TEST_F(CompileLights, DistantLight) {
+  shape(triangle());
+  light(plugin("distant", {numbers(ParameterType::kPoint, "from", {0, 0, 2}),
+                           numbers(ParameterType::kPoint, "to", {0, 0, 0}), number("gain", 5)}),
+        translate(7, 7, 7));
+  light(plugin("distant", {number("theta", .25f)}));
+  light(plugin("distant", {number("theta", .0001f)}));
+  const Scene scene = compile();
+  const auto l = scene.lights.row(0);
+  EXPECT_EQ(l.a_z, 1) << "towards the light";
+  EXPECT_EQ(l.radiance_r, 5);
+  EXPECT_EQ(l.extra, 1);
+  const auto disc = scene.lights.row(1);
+  EXPECT_EQ(disc.a_z, -1);
+  EXPECT_LT(disc.extra, 1);
+  // Irradiance of the disc as the kernels see it: exactly L whatever the cosine rounds to.
+  EXPECT_NEAR(double(disc.radiance_r) * 2 * kPi * (1 - double(disc.extra)), 1, 1e-6);
+  EXPECT_EQ(scene.lights.row(2).extra, 1) << "too small for a float: a direction";
+  EXPECT_EQ(scene.lights.row(2).radiance_r, 1);
+  // Power relative to the scene's size: 5 : 1 : 1.
+  EXPECT_FLOAT_EQ(l.probability, 5.f / 7);
+}
+
+TEST_F(CompileLights, OthersAreLeftOut) {
+  shape(triangle());
+  light(plugin("infinite", {number("gain", 1)}, 20));
+  light(plugin("infinite", {}, 21));
+  light(plugin("pointt", {}, 22));
+  light(plugin("distant", {numbers(ParameterType::kPoint, "to", {0, 0, 0})}, 23));
+  EXPECT_EQ(compile().lights.size(), 0u);
+  EXPECT_EQ(
+      all_said(),
+      "scene.lxs:20:1: warning: light \"infinite\" is not yet supported: left out\n"
+      "scene.lxs:22:1: error: unknown light \"pointt\" (did you mean \"point\"?): left out\n"
+      "scene.lxs:23:1: error: light \"distant\" has no direction (\"from\" and \"to\" are the same "
+      "point): left out\n"
+      "warning: the scene has no light that can be used: the picture will be black\n");
+}
+
+// ---- The alias table -------------------------------------------------------------------------
+
+/// What the table does: each row's share of the intervals, from the thresholds as stored.
+std::vector<double> shares(const AliasTable& table) {
+  const size_t n = table.choice.size();
+  std::vector<double> p(n, 0.);
+  for (size_t i = 0; i < n; ++i) {
+    EXPECT_GE(table.choice[i].threshold, 0);
+    EXPECT_LE(table.choice[i].threshold, 1);
+    EXPECT_LT(table.choice[i].other, n);
+    p[i] += double(table.choice[i].threshold) / double(n);
+    p[table.choice[i].other] += (1 - double(table.choice[i].threshold)) / double(n);
+  }
+  return p;
+}
+
+void check(const std::vector<double>& weights) {
+  const AliasTable table = make_alias_table(weights);
+  const std::vector<double> p = shares(table);
+  double sum = 0, stated = 0;
+  for (size_t i = 0; i < weights.size(); ++i) {
+    sum += p[i];
+    stated += double(table.probability[i]);
+    // Stated as done, to the last bit but one of a float.
+    ASSERT_NEAR(double(table.probability[i]), p[i], 1e-7 * p[i]) << i;
+    if (weights[i] > 0)
+      ASSERT_GE(p[i] * double(weights.size()), .99 / 1024) << i;
+    else
+      ASSERT_EQ(p[i], 0) << i;
+  }
+  EXPECT_NEAR(sum, 1, 1e-9);
+  EXPECT_NEAR(stated, 1, 1e-6);
+}
+
+TEST(AliasTable, ChoosesByWeight) {
+  const std::vector<double> weights = {1, 2, 3, 4, 0, 10};
+  const AliasTable table = make_alias_table(weights);
+  for (size_t i = 0; i < weights.size(); ++i)
+    EXPECT_NEAR(double(table.probability[i]), weights[i] / 20, 1e-7);
+  check(weights);
+}
+
+TEST(AliasTable, OneRow) {
+  const AliasTable table = make_alias_table(std::vector<double>{3e-300});
+  EXPECT_EQ(table.choice[0].threshold, 1);
+  EXPECT_EQ(table.probability[0], 1);
+}
+
+TEST(AliasTable, HoldsForAnyWeights) {
+  check(std::vector<double>(1000, 7.));
+  check({0, 0, 1, 0});
+  check({1e-300, 1e300, 0, 1});
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> exponent(-20, 20);
+  std::vector<double> weights(1'000'000);
+  for (double& w : weights) w = random() % 10 ? std::pow(10., exponent(random)) : 0;
+  check(weights);
+}
+
+}  // namespace
+}  // namespace yat

@@ -1,0 +1,204 @@
+// Materials and textures: parameter rows, fallbacks, messages.
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <numbers>
+
+#include "kernels/materials/all.h"
+#include "scene_builder.h"
+
+namespace yat {
+namespace {
+
+template <template <template <class> class> class Record>
+Record<Value> row_of(const Scene& scene, MaterialKind kind, uint32_t row = 0) {
+  Record<Value> out;
+  EXPECT_LT(row, scene.parameter_rows[uint32_t(kind)]);
+  for_each_field(
+      [&](auto index, auto& field) {
+        std::memcpy(&field, &scene.parameters[uint32_t(kind)][row * row_words<Record> + index], 4);
+      },
+      out);
+  return out;
+}
+
+class CompileMaterials : public SceneTest {
+ protected:
+  CompileMaterials() { light(plugin("point", {})); }
+  Scene with(Plugin m) {
+    description.shapes.clear();
+    shape(square()).material = material(std::move(m));
+    return compile();
+  }
+};
+
+TEST_F(CompileMaterials, EachKindHasItsRow) {
+  const auto matte = row_of<MatteParameters>(with(plugin("matte", {color("Kd", .1f, .2f, .3f)})),
+                                             MaterialKind::kMatte);
+  EXPECT_EQ(matte.kd_b, .3f);
+  const auto rough = row_of<OrenNayarParameters>(with(plugin("matte", {number("sigma", 90)})),
+                                                 MaterialKind::kOrenNayar);
+  EXPECT_FLOAT_EQ(rough.sigma, float(std::numbers::pi / 2));
+  EXPECT_FLOAT_EQ(rough.kd_r, .9f);
+  const auto mirror = row_of<MirrorParameters>(with(plugin("mirror", {})), MaterialKind::kMirror);
+  EXPECT_EQ(mirror.kr_g, 1);
+  const auto glass = row_of<GlassParameters>(
+      with(plugin("glass", {color("Kt", .5f, 1, 1), number("index", 1.33f)})),
+      MaterialKind::kGlass);
+  EXPECT_EQ(glass.kt_r, .5f);
+  EXPECT_EQ(glass.kr_r, 1);
+  EXPECT_EQ(glass.index, 1.33f);
+  EXPECT_SILENT();
+}
+
+TEST_F(CompileMaterials, DefaultIsMatteNine) {
+  description.shapes.clear();
+  shape(square());
+  EXPECT_FLOAT_EQ(row_of<MatteParameters>(compile(), MaterialKind::kMatte).kd_g, .9f);
+}
+
+TEST_F(CompileMaterials, OneRowPerMaterialHoweverOftenUsed) {
+  const uint32_t a = material(plugin("matte", {})), b = material(plugin("matte", {}));
+  for (uint32_t m : {a, b, a, b, a}) shape(square()).material = m;
+  const Scene scene = compile();
+  EXPECT_EQ(scene.parameter_rows[uint32_t(MaterialKind::kMatte)], 2u);
+  EXPECT_EQ(scene.triangles.row(8).parameter, scene.triangles.row(0).parameter);
+  EXPECT_NE(scene.triangles.row(2).parameter, scene.triangles.row(0).parameter);
+}
+
+TEST_F(CompileMaterials, ColoursAreClampedWithOneWarning) {
+  const uint32_t a = material(plugin("matte", {color("Kd", 2, -1, .5f)}));
+  const uint32_t b = material(plugin("matte", {color("Kd", NAN, 0, 7)}));
+  shape(square()).material = a;
+  shape(square()).material = b;
+  const Scene scene = compile();
+  const auto kd = row_of<MatteParameters>(scene, MaterialKind::kMatte);
+  EXPECT_EQ(kd.kd_r, 1);
+  EXPECT_EQ(kd.kd_g, 0);
+  EXPECT_EQ(kd.kd_b, .5f);
+  EXPECT_EQ(row_of<MatteParameters>(scene, MaterialKind::kMatte, 1).kd_r, 0);
+  EXPECT_EQ(all_said(),
+            "scene.lxs:11:2: warning: \"Kd\" of material \"matte\" is 2 -1 0.5: clamped to "
+            "0..1\n");
+}
+
+TEST_F(CompileMaterials, Unsupported) {
+  Scene scene = with(plugin("metal2", {color("Kr", .2f, .2f, .2f), number("uroughness", .5f)}));
+  EXPECT_EQ(row_of<MatteParameters>(scene, MaterialKind::kMatte).kd_r, .2f);
+  EXPECT_SAID(
+      "scene.lxs:10:1: warning: material \"metal2\" is not yet supported: rendered as matte with "
+      "Kd 0.2 0.2 0.2");
+  scene = with(plugin("roughglass", {number("index", 2)}));
+  EXPECT_EQ(row_of<GlassParameters>(scene, MaterialKind::kGlass).index, 2);
+  scene = with(plugin("mate", {}));
+  EXPECT_SAID(
+      "scene.lxs:10:1: error: unknown material \"mate\" (did you mean \"matte\"?): matte with Kd "
+      "0.9 is used");
+  with(plugin("mirror", {number("film", 200), number("filmindex", 1.33f)}));
+  EXPECT_SAID("scene.lxs:11:2: warning: thin films are not yet supported: \"film\" is taken as 0");
+}
+
+TEST_F(CompileMaterials, UnusedParameter) {
+  with(plugin("mirror", {color("Kd", 1, 1, 1)}));
+  EXPECT_SAID(
+      "scene.lxs:11:2: warning: parameter \"color Kd\" of material \"mirror\" is not used (did you "
+      "mean \"Kr\"?)");
+}
+
+TEST_F(CompileMaterials, NullSurfacesAreDroppedUnlessTheyShine) {
+  const uint32_t null = material(plugin("null", {}));
+  shape(triangle());
+  shape(square()).material = null;
+  shape(plugin("sphere", {})).material = null;
+  shape(plugin("plane", {})).material = null;
+  Scene scene = compile();
+  EXPECT_EQ(scene.triangles.size(), 1u);
+  EXPECT_EQ(scene.spheres.size() + scene.planes.size(), 0u);
+  EXPECT_TRUE(scene.all_occlude);
+
+  description.shapes[1].area_light = description.shapes[2].area_light = area_light({});
+  scene = compile();
+  ASSERT_EQ(scene.triangles.size(), 3u);
+  ASSERT_EQ(scene.spheres.size(), 1u);
+  EXPECT_FALSE(scene.all_occlude);
+  EXPECT_EQ(scene.spheres.row(0).occludes, 0u);
+  const Bin& bin = scene.bins[scene.prim_bin[1]];
+  EXPECT_EQ(bin.material, MaterialKind::kNull);
+  EXPECT_TRUE(bin.emissive);
+  EXPECT_EQ(bin.primitives, 2u);
+  // The tree knows which triangles stop shadow rays.
+  uint32_t stopping = 0;
+  for (uint32_t block = 0; block < scene.tree.view.block_count; ++block)
+    for (uint32_t bits = scene.tree.view.block_occluders[block]; bits; bits &= bits - 1) ++stopping;
+  EXPECT_EQ(stopping, 1u);
+}
+
+TEST_F(CompileMaterials, ConstantTexturesAreEvaluated) {
+  description.textures.push_back(
+      {"half", "color", plugin("constant", {color("value", .5f, .25f, 1)}), Matrix(1.)});
+  description.textures.push_back(
+      {"scaled", "color", plugin("scale", {texture("tex1", 0), color("tex2", .5f, .5f, .5f)}),
+       Matrix(1.)});
+  description.textures.push_back(
+      {"mixed", "color",
+       plugin("mix", {texture("tex1", 1), color("tex2", 1, 1, 1), number("amount", .25f)}),
+       Matrix(1.)});
+  const auto kd =
+      row_of<MatteParameters>(with(plugin("matte", {texture("Kd", 2)})), MaterialKind::kMatte);
+  EXPECT_FLOAT_EQ(kd.kd_r, .75f * .25f + .25f);
+  EXPECT_FLOAT_EQ(kd.kd_g, .75f * .125f + .25f);
+  EXPECT_FLOAT_EQ(kd.kd_b, .75f * .5f + .25f);
+  EXPECT_SILENT();
+}
+
+TEST_F(CompileMaterials, ImagesCountByTheirMean) {
+  const std::filesystem::path folder = std::filesystem::path(YAT_TEST_OUTPUT_DIR) / "compile";
+  std::filesystem::create_directories(folder);
+  OIIO::ImageSpec spec(2, 1, 3, OIIO::TypeDesc::UINT8);
+  OIIO::ImageBuf image(spec);
+  const float black[3] = {0, 0, 0}, other[3] = {1, .4f, 0};
+  image.setpixel(0, 0, black);
+  image.setpixel(1, 0, other);
+  ASSERT_TRUE(image.write((folder / "two.png").string()));
+  description.directory = folder.string();
+  description.textures.push_back(
+      {"picture", "color",
+       plugin("imagemap", {text("filename", "two.png"), number("gamma", 2), number("gain", .5f),
+                           number("vscale", -1)}),
+       Matrix(1.)});
+  const auto kd =
+      row_of<MatteParameters>(with(plugin("matte", {texture("Kd", 0)})), MaterialKind::kMatte);
+  // (gain * texel)^gamma, then the mean of both texels; .4 is 102 / 255 exactly.
+  EXPECT_FLOAT_EQ(kd.kd_r, .125f);
+  EXPECT_NEAR(kd.kd_g, .02, 1e-6);
+  EXPECT_EQ(kd.kd_b, 0);
+  EXPECT_EQ(all_said(),
+            "scene.lxs:10:1: warning: texture \"picture\": image textures are not yet "
+            "supported: the mean colour of the image is used\n");
+}
+
+TEST_F(CompileMaterials, MissingAndUnsupportedTextures) {
+  description.textures.push_back(
+      {"gone", "color", plugin("imagemap", {text("filename", "gone.png")}), Matrix(1.)});
+  auto kd =
+      row_of<MatteParameters>(with(plugin("matte", {texture("Kd", 0)})), MaterialKind::kMatte);
+  EXPECT_EQ(kd.kd_r, 1);
+  EXPECT_SAID("scene.lxs:11:2: error: image \"gone.png\" not found: white is used");
+  description.textures[0] = {"m", "color", plugin("marble", {integers("octaves", {8})}),
+                             Matrix(1.)};
+  kd = row_of<MatteParameters>(with(plugin("matte", {texture("Kd", 0)})), MaterialKind::kMatte, 0);
+  EXPECT_FLOAT_EQ(kd.kd_r, .9f);
+  EXPECT_SAID(
+      "scene.lxs:10:1: warning: texture \"m\": \"marble\" is not yet supported: the default of the "
+      "parameter that uses it is taken");
+  // A texture that is made of itself ends.
+  description.textures[0] = {"loop", "color", plugin("scale", {texture("tex1", 0)}), Matrix(1.)};
+  with(plugin("matte", {texture("Kd", 0)}));
+  EXPECT_SAID("scene.lxs:10:1: error: texture \"loop\" is made of itself");
+}
+
+}  // namespace
+}  // namespace yat
