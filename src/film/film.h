@@ -9,17 +9,35 @@
 
 namespace yat {
 
-/// 128-bit fixed point with 64 fractional bits: holds sums up to 9e18 in steps of 5.4e-20.
+/// 128-bit fixed point with 64 fractional bits: holds sums up to 9.2e18 in steps of 5.4e-20.
 __extension__ typedef __int128 Fixed;
 
-/// Nearest Fixed to a finite float with |x| < 2^62 (else clamped: the caller counts it).
+/// Largest magnitude of a channel that a sample may bring [W/m2/sr]: 2^23 samples of it still fit.
+inline constexpr float kLargestSample = 0x1p40f;
+
+/// The Fixed nearest to x. Exact for |x| >= 2^-41 and for 0 (a float has 24 bits); below that
+/// rounded to the nearest step of 2^-64, ties to even, so the error is at most 2.8e-20. Magnitudes
+/// of 2^62 and more, infinities included, become +-2^62; a NaN becomes 0.
 Fixed to_fixed(float x) noexcept;
+/// The double nearest to x.
 double from_fixed(Fixed x) noexcept;
 
-struct FilmPixel {
+/// One cache line.
+struct alignas(64) FilmPixel {
   Fixed r = 0, g = 0, b = 0;  ///< sums of linear Rec.709 radiance, filter sign included
   uint64_t samples = 0;
+
+  /// Adds one sample if every channel is finite and at most kLargestSample in magnitude; says
+  /// whether it did. A refused sample is not counted: the mean stays that of the others.
+  bool add(float sample_r, float sample_g, float sample_b) noexcept;
+  void merge(const FilmPixel& other) noexcept {
+    r += other.r;
+    g += other.g;
+    b += other.b;
+    samples += other.samples;
+  }
 };
+static_assert(sizeof(FilmPixel) == 64);
 
 class Film {
  public:
@@ -30,7 +48,7 @@ class Film {
   const FilmPixel& at(uint32_t x, uint32_t y) const { return pixels_[size_t(y) * width_ + x]; }
   FilmPixel* data() { return pixels_.data(); }
   const FilmPixel* data() const { return pixels_.data(); }
-  /// Adds the other film's sums; sizes must agree.
+  /// Adds the other film's sums. Throws std::invalid_argument when the sizes differ.
   void merge(const Film& other);
   uint64_t total_samples() const;
   /// width * height * 3 means, linear Rec.709; 0 where a pixel has no sample.

@@ -9,8 +9,22 @@
 
 namespace yat {
 
-/// rgb: 3 floats a pixel, linear Rec.709. Returns 3 floats a pixel in [0, 1], film colour space,
-/// gamma-encoded: what is quantised by truncation to 8 or 16 bits. Non-finite input counts as 0.
+/// Steps, in this order: exposure; negative XYZ to 0; tone map (a factor that depends on
+/// luminance); film colour space, colours outside its gamut pulled towards white at their
+/// luminance; channels above 1 brought back by the clamp method; power law.
+///
+/// rgb      3 floats a pixel, linear Rec.709. A pixel with a non-finite channel counts as black.
+/// returns  3 floats a pixel in [0, 1], film colour space, gamma-encoded: what is quantised by
+///          truncation to 8 or 16 bits.
+///
+/// Statistics that a tone map needs (mean, logarithmic mean, maximum of the luminance) are over the
+/// pixels with luminance > 0 and summed in pixel order. Throws UsageError for a film colour space
+/// without volume.
 std::vector<float> tone_map(std::span<const float> rgb, const FilmSettings& settings);
+
+/// c in [0, 1] -> 0..levels by truncation, as LuxRender writes its files (lxs 4.2, step 9).
+inline uint32_t quantise(float c, uint32_t levels) {
+  return uint32_t(c * float(levels));
+}
 
 }  // namespace yat

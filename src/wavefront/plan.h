@@ -18,8 +18,11 @@ struct BinPlan {
   Bin bin;
   bool emission = false;       ///< rows have a light row: add_emission runs
   bool sample_lights = false;  ///< the scene has lights and the material is not delta
+  // Random numbers that the rows need.
+  bool draw_choice = false;  ///< which light: there is more than one
   bool draw_lobe = false;
   bool draw_direction = false;
+  bool draw_roulette = false;
 };
 
 struct Plan {
@@ -27,6 +30,8 @@ struct Plan {
   SamplerKind sampler = SamplerKind::kSobol;
   TransportOptions transport;
   std::vector<BinPlan> bins;  ///< parallel to Scene::bins; [0] is the ended bin
+  /// Bit b: a path that reaches bin b at its last vertex still goes there, for the emission of its
+  /// surface or, where the surface is see-through, of what lies behind.
   uint64_t emissive_bins = 0;
   bool thin_lens = false;
   bool triangles = false, spheres = false, planes = false;  ///< which intersect stages run
@@ -42,6 +47,9 @@ struct PlanOptions {
   uint32_t seed = 0;
 };
 
+MaterialTraits material_traits(MaterialKind kind);
+
+/// Throws std::logic_error when the table lacks a kernel that the scene needs.
 Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions& options);
 
 /// One line per stage and kernel that will run, then what is skipped and why.

@@ -1,0 +1,132 @@
+#include "film/output.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include "base/error.h"
+#include "film/tonemap.h"
+
+namespace yat {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Format { kNone, kExr, kPng, kJpeg };
+
+Format format_of(std::string_view path) {
+  std::string extension = fs::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  if (extension == ".exr") return Format::kExr;
+  if (extension == ".png") return Format::kPng;
+  if (extension == ".jpg" || extension == ".jpeg") return Format::kJpeg;
+  return Format::kNone;
+}
+
+const char* writer_of(Format format) {
+  switch (format) {
+    case Format::kExr:
+      return "openexr";
+    case Format::kPng:
+      return "png";
+    default:
+      return "jpeg";
+  }
+}
+
+void describe(OIIO::ImageSpec& spec, const PictureMetadata& m) {
+  spec.attribute("Software", fmt::format("yat {}", m.version));
+  spec.attribute("yat:scene", m.scene);
+  spec.attribute("yat:scene_hash", fmt::format("{:016x}", m.scene_hash));
+  spec.attribute("yat:seed", fmt::format("{}", m.seed));
+  spec.attribute("yat:samples_per_pixel", float(m.samples_per_pixel));
+  spec.attribute("yat:render_seconds", float(m.render_seconds));
+  spec.attribute("yat:isa", m.isa);
+  spec.attribute("yat:version", m.version);
+  // The one text that JPEG keeps.
+  spec.attribute(
+      "ImageDescription",
+      fmt::format("{} (hash {:016x}, seed {}, {} samples per pixel, {:.3f} s, {})", m.scene,
+                  m.scene_hash, m.seed, m.samples_per_pixel, m.render_seconds, m.isa));
+}
+
+OIIO::ImageSpec exr_spec(uint32_t width, uint32_t height, const FilmSettings& settings) {
+  OIIO::ImageSpec spec(int(width), int(height), 3, OIIO::TypeDesc::FLOAT);
+  spec.attribute("compression", "zip");
+  spec.attribute("oiio:ColorSpace", "Linear");
+  // CIE xy of Rec.709: red, green, blue, white.
+  const float chromaticities[8] = {.64f, .33f, .30f, .60f, .15f, .06f, .3127f, .3290f};
+  spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), chromaticities);
+  if (width == settings.crop_width() && height == settings.crop_height()) {
+    spec.x = int(settings.crop_x0);
+    spec.y = int(settings.crop_y0);
+    spec.full_width = int(settings.width);
+    spec.full_height = int(settings.height);
+  }
+  return spec;
+}
+
+void write_file(const std::string& file, Format format, const OIIO::ImageSpec& spec,
+                OIIO::TypeDesc type, const void* pixels) {
+  const auto writer = OIIO::ImageOutput::create(writer_of(format));
+  if (!writer) throw ResourceError(OIIO::geterror());
+  if (!writer->open(file, spec) || !writer->write_image(type, pixels) || !writer->close())
+    throw ResourceError(writer->geterror());
+}
+
+}  // namespace
+
+bool is_picture_name(std::string_view path) {
+  return format_of(path) != Format::kNone;
+}
+
+void write_picture(const std::string& path, std::span<const float> rgb, uint32_t width,
+                   uint32_t height, const FilmSettings& settings, const PictureMetadata& metadata) {
+  const Format format = format_of(path);
+  if (format == Format::kNone)
+    throw UsageError(fmt::format("{}: pictures are written as .exr, .png, .jpg or .jpeg", path));
+  if (rgb.size() != size_t(width) * height * 3 || rgb.empty())
+    throw ResourceError(fmt::format("{}: a picture of {} x {} has {} numbers, not {}", path, width,
+                                    height, size_t(width) * height * 3, rgb.size()));
+
+  // Beside its name, so that the rename stays on one file system. The process id keeps two yats
+  // that write the same picture apart.
+  const std::string part = fmt::format("{}.{}.part", path, getpid());
+  try {
+    if (const fs::path folder = fs::path(path).parent_path(); !folder.empty())
+      fs::create_directories(folder);
+    if (format == Format::kExr) {
+      OIIO::ImageSpec spec = exr_spec(width, height, settings);
+      describe(spec, metadata);
+      write_file(part, format, spec, OIIO::TypeDesc::FLOAT, rgb.data());
+    } else {
+      const std::vector<float> display = tone_map(rgb, settings);
+      std::vector<uint8_t> bytes(display.size());
+      std::transform(display.begin(), display.end(), bytes.begin(),
+                     [](float c) { return uint8_t(quantise(c, 255)); });
+      OIIO::ImageSpec spec(int(width), int(height), 3, OIIO::TypeDesc::UINT8);
+      if (format == Format::kJpeg) spec.attribute("Compression", "jpeg:95");
+      describe(spec, metadata);
+      write_file(part, format, spec, OIIO::TypeDesc::UINT8, bytes.data());
+    }
+    fs::rename(part, path);
+  } catch (const ResourceError& e) {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    throw ResourceError(fmt::format("{}: cannot write the picture: {}", path, e.what()));
+  } catch (const fs::filesystem_error& e) {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    throw ResourceError(fmt::format("{}: cannot write the picture: {}", path, e.code().message()));
+  }
+}
+
+}  // namespace yat

@@ -1,0 +1,94 @@
+#pragma once
+// All memory that one worker needs while it renders, taken once.
+//
+//   rays, paths [2]   the paths under way, dense; a turn reads one pair and packs the next turn's
+//                     into the other
+//   hits, bin, order  row for row with the pair that is read; order lists its rows bin by bin
+//   chunk             a few hundred rows of one bin while they are shaded: stays in the L1 cache
+//   shadow            shadow rays of this turn
+//   sums              one row per slot, a slot per path under way
+//
+// Columns are indexed by row, except sums, slot_sample (by slot).
+
+#include <cstdint>
+
+#include "kernels/table.h"
+#include "soa/columns.h"
+#include "soa/records.h"
+#include "wavefront/plan.h"
+
+namespace yat {
+
+/// Rows of a chunk. Surface, PathState, Randoms and LightSample take 176 bytes a row: 44 KB of a
+/// 48 KB L1 cache at 256.
+inline constexpr uint32_t kChunkRows = 256;
+
+struct Batch {
+  Batch(const Scene& scene, const Plan& plan, uint32_t batch_rows)
+      : rows(batch_rows),
+        hits(batch_rows),
+        bin(batch_rows),
+        order(batch_rows),
+        shadow(batch_rows),
+        occluded(batch_rows),
+        sums(batch_rows),
+        slot_sample(batch_rows),
+        free_slots(batch_rows),
+        finished(batch_rows),
+        camera(batch_rows),
+        film_u(batch_rows),
+        film_v(batch_rows),
+        lens_u(plan.thin_lens ? batch_rows : 0),
+        lens_v(plan.thin_lens ? batch_rows : 0),
+        surfaces(kChunkRows),
+        chunk_paths(kChunkRows),
+        randoms(kChunkRows),
+        lights(plan.lights ? kChunkRows : 0) {
+    for (int i = 0; i < 2; ++i) {
+      rays[i].resize(batch_rows);
+      paths[i].resize(batch_rows);
+    }
+    if (plan.triangles) {
+      scratch_memory.resize(plan.kernels->traversal_scratch_bytes(scene.tree.view, batch_rows));
+      scratch = {scratch_memory.data(), scratch_memory.size()};
+    }
+    // Lowest slot on top.
+    for (uint32_t i = 0; i < batch_rows; ++i) free_slots[i] = batch_rows - 1 - i;
+    free_count = batch_rows;
+  }
+  // `scratch` points into this object's own memory.
+  Batch(const Batch&) = delete;
+  Batch& operator=(const Batch&) = delete;
+
+  uint32_t rows;
+  Table<Ray> rays[2];
+  Table<PathState> paths[2];
+  Table<Hit> hits;
+  AlignedArray<uint32_t> bin, order;
+  Table<ShadowRay> shadow;
+  AlignedArray<uint32_t> occluded;
+  Table<SampleSum> sums;
+  AlignedArray<uint32_t> slot_sample;  ///< sample index of the slot's path
+  AlignedArray<uint32_t> free_slots, finished;
+  uint32_t free_count = 0;
+  Table<CameraSample> camera;
+  AlignedArray<float> film_u, film_v, lens_u, lens_v;
+  Table<Surface> surfaces;
+  Table<PathState> chunk_paths;
+  Table<Randoms> randoms;
+  Table<LightSample> lights;
+  AlignedArray<std::byte> scratch_memory;
+  Scratch scratch;
+
+  size_t bytes() const {
+    size_t total = hits.bytes() + bin.bytes() + order.bytes() + shadow.bytes() + occluded.bytes() +
+                   sums.bytes() + slot_sample.bytes() + free_slots.bytes() + finished.bytes() +
+                   camera.bytes() + film_u.bytes() + film_v.bytes() + lens_u.bytes() +
+                   lens_v.bytes() + surfaces.bytes() + chunk_paths.bytes() + randoms.bytes() +
+                   lights.bytes() + scratch_memory.bytes();
+    for (int i = 0; i < 2; ++i) total += rays[i].bytes() + paths[i].bytes();
+    return total;
+  }
+};
+
+}  // namespace yat

@@ -1,0 +1,190 @@
+#include "wavefront/plan.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <iterator>
+#include <stdexcept>
+
+#include "kernels/materials/all.h"
+#include "wavefront/stages.h"
+
+namespace yat {
+
+namespace {
+
+constexpr std::string_view kGeometryNames[] = {"triangle_flat", "triangle_vertex", "sphere",
+                                               "plane"};
+constexpr std::string_view kLightNames[] = {"triangle", "sphere", "point", "distant", "mixed"};
+constexpr std::string_view kSamplerNames[] = {"independent", "sobol"};
+static_assert(std::size(kGeometryNames) == uint32_t(GeometryKind::kCount));
+static_assert(std::size(kLightNames) == uint32_t(LightKind::kCount) + 1);
+static_assert(std::size(kSamplerNames) == uint32_t(SamplerKind::kCount));
+
+/// A table without a kernel that the plan wants is a mistake in the program, not in the scene.
+void need(bool present, const KernelTable& kernels, std::string_view kernel) {
+  if (!present) throw std::logic_error(fmt::format("{}: no kernel {}", kernels.isa, kernel));
+}
+
+void need_kernels(const Plan& plan) {
+  const KernelTable& k = *plan.kernels;
+  need(k.draw[uint32_t(plan.sampler)], k, "draw");
+  need(k.generate_camera_rays[plan.thin_lens], k, "generate_camera_rays");
+  if (plan.triangles) {
+    need(k.traversal_scratch_bytes, k, "traversal_scratch_bytes");
+    need(k.intersect_closest, k, "intersect_closest");
+    if (plan.lights) need(k.intersect_shadow[plan.shadow_mask], k, "intersect_shadow");
+  }
+  if (plan.spheres) need(k.intersect_spheres && k.shadow_spheres, k, "intersect_spheres");
+  if (plan.planes) need(k.intersect_planes && k.shadow_planes, k, "intersect_planes");
+  need(k.classify_hits, k, "classify_hits");
+  if (plan.lights) {
+    need(k.sample_lights[plan.light_kernel], k, "sample_lights");
+    need(k.add_unoccluded, k, "add_unoccluded");
+  }
+  for (uint32_t b = 1; b < plan.bins.size(); ++b) {
+    const BinPlan& bin = plan.bins[b];
+    need(k.make_surfaces[uint32_t(bin.bin.geometry)], k, "make_surfaces");
+    need(k.shade[uint32_t(bin.bin.material)], k, "shade");
+    if (bin.emission) need(k.add_emission, k, "add_emission");
+  }
+}
+
+}  // namespace
+
+MaterialTraits material_traits(MaterialKind kind) {
+  switch (kind) {
+#define YAT_MATERIAL(file, Type) \
+  case MaterialKind::k##Type:    \
+    return k##Type##Traits;
+    YAT_MATERIALS(YAT_MATERIAL)
+#undef YAT_MATERIAL
+    case MaterialKind::kCount:
+      break;
+  }
+  throw std::logic_error("material_traits: no such material kind");
+}
+
+Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions& options) {
+  if (scene.bins.size() > kMaxBins)
+    throw std::logic_error(fmt::format("{} bins; at most {}", scene.bins.size(), kMaxBins));
+  Plan plan;
+  plan.kernels = &kernels;
+  plan.sampler = options.sampler;
+  plan.transport.max_depth = options.max_depth;
+  if (options.integrator == Integrator::kDirect)
+    plan.transport.least_depth_after_scatter = options.max_depth;
+  plan.transport.seed = options.seed;
+  plan.thin_lens = scene.thin_lens;
+  plan.triangles = scene.triangles.size() > 0;
+  plan.spheres = scene.spheres.size() > 0;
+  plan.planes = scene.planes.size() > 0;
+  plan.shadow_mask = !scene.all_occlude;
+
+  // Light is sampled at vertices below max_depth only.
+  plan.lights = scene.lights.size() > 0 && options.max_depth > 0;
+  plan.light_kernel = std::popcount(scene.light_kinds) == 1
+                          ? uint32_t(std::countr_zero(scene.light_kinds))
+                          : uint32_t(LightKind::kCount);
+  // Scattering vertices beyond the first that plays roulette are needed for it to be played.
+  const bool roulette = plan.transport.max_depth > plan.transport.roulette_depth;
+
+  plan.bins.resize(scene.bins.size());
+  for (uint32_t b = 1; b < scene.bins.size(); ++b) {
+    BinPlan& bin = plan.bins[b];
+    bin.bin = scene.bins[b];
+    const MaterialTraits traits = material_traits(bin.bin.material);
+    bin.emission = bin.bin.emissive;
+    bin.sample_lights = plan.lights && !traits.delta && !traits.see_through;
+    bin.draw_choice = bin.sample_lights && scene.lights.size() > 1;
+    bin.draw_lobe = traits.needs_lobe;
+    bin.draw_direction = traits.needs_direction;
+    bin.draw_roulette = roulette && !traits.see_through;
+    // A path at its last vertex goes on through what does not scatter, to what emits.
+    if (bin.emission || traits.see_through) plan.emissive_bins |= uint64_t(1) << b;
+  }
+  need_kernels(plan);
+  return plan;
+}
+
+std::string describe_plan(const Plan& plan, const Scene& scene) {
+  std::string text;
+  const auto line = [&](Stage stage, std::string_view what) {
+    fmt::format_to(std::back_inserter(text), "  {:<17}{}\n", stage_name(stage), what);
+  };
+  text += fmt::format("stages ({}, {} lanes)\n", plan.kernels->isa, plan.kernels->lanes);
+  line(Stage::kGenerate,
+       fmt::format("generate_camera_rays ({}), {} numbers: {} x {} pixels",
+                   plan.thin_lens ? "thin lens" : "pinhole", kSamplerNames[uint32_t(plan.sampler)],
+                   scene.film.crop_width(), scene.film.crop_height()));
+  if (plan.triangles)
+    line(Stage::kIntersect, fmt::format("intersect_closest: {} triangles, {} nodes",
+                                        scene.triangles.size(), scene.tree.view.node_count));
+  if (plan.spheres)
+    line(Stage::kIntersect, fmt::format("intersect_spheres: {} spheres", scene.spheres.size()));
+  if (plan.planes)
+    line(Stage::kIntersect, fmt::format("intersect_planes: {} planes", scene.planes.size()));
+  line(Stage::kSort, fmt::format("classify_hits: {} bins", plan.bins.size() - 1));
+  for (uint32_t b = 1; b < plan.bins.size(); ++b) {
+    const BinPlan& bin = plan.bins[b];
+    std::string what = fmt::format("bin {}, {} primitives: make_surfaces {}", b, bin.bin.primitives,
+                                   kGeometryNames[uint32_t(bin.bin.geometry)]);
+    if (bin.emission) what += ", add_emission";
+    std::string numbers;
+    if (bin.sample_lights) numbers += " light";
+    if (bin.draw_choice) numbers += " choice";
+    if (bin.draw_lobe) numbers += " lobe";
+    if (bin.draw_direction) numbers += " bsdf";
+    if (bin.draw_roulette) numbers += " roulette";
+    if (!numbers.empty()) what += ", draw" + numbers;
+    if (bin.sample_lights)
+      what += fmt::format(", sample_lights ({})", kLightNames[plan.light_kernel]);
+    what += fmt::format(", shade {}", material_traits(bin.bin.material).name);
+    line(Stage::kShade, what);
+  }
+  if (plan.lights) {
+    line(Stage::kIntersectShadow,
+         fmt::format("{}{}{}",
+                     plan.triangles
+                         ? plan.shadow_mask ? "intersect_shadow (masked)" : "intersect_shadow"
+                         : "no triangles",
+                     plan.spheres ? ", shadow_spheres" : "", plan.planes ? ", shadow_planes" : ""));
+    line(Stage::kAccumulate, fmt::format("add_unoccluded: {} lights", scene.lights.size()));
+  }
+
+  text += "skipped\n";
+  const auto skipped = [&](bool runs, std::string_view kernel, std::string_view why) {
+    if (!runs) fmt::format_to(std::back_inserter(text), "  {}: {}\n", kernel, why);
+  };
+  const auto any_bin = [&](auto condition) {
+    for (uint32_t b = 1; b < plan.bins.size(); ++b)
+      if (condition(plan.bins[b])) return true;
+    return false;
+  };
+  skipped(plan.triangles, "intersect_closest", "no triangle in the scene");
+  skipped(plan.spheres, "intersect_spheres", "no sphere in the scene");
+  skipped(plan.planes, "intersect_planes", "no plane in the scene");
+  skipped(plan.thin_lens, "draw lens", "the camera is a pinhole");
+  skipped(plan.shadow_mask || !plan.lights, "intersect_shadow (masked)",
+          "every triangle stops shadow rays");
+  skipped(any_bin([](const BinPlan& b) { return b.emission; }), "add_emission",
+          "no surface emits light");
+  if (!plan.lights)
+    skipped(false, "sample_lights, intersect_shadow, add_unoccluded",
+            scene.lights.size() ? "paths end at their first vertex" : "no light in the scene");
+  else
+    skipped(any_bin([](const BinPlan& b) { return b.draw_choice; }) || scene.lights.size() > 1,
+            "draw choice", "there is one light");
+  skipped(any_bin([](const BinPlan& b) { return b.draw_lobe; }), "draw lobe",
+          "no material chooses between lobes");
+  skipped(any_bin([](const BinPlan& b) { return b.draw_roulette; }), "draw roulette",
+          "no path gets as far as Russian roulette");
+#define YAT_MATERIAL(file, Type)                                                             \
+  skipped(any_bin([](const BinPlan& b) { return b.bin.material == MaterialKind::k##Type; }), \
+          "shade " + std::string(k##Type##Traits.name), "no surface of this material");
+  YAT_MATERIALS(YAT_MATERIAL)
+#undef YAT_MATERIAL
+  return text;
+}
+
+}  // namespace yat

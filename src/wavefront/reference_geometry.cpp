@@ -1,0 +1,185 @@
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "wavefront/reference_parts.h"
+
+namespace yat::reference {
+
+namespace {
+
+/// Rounding of a double, with room for a chain of operations.
+constexpr double kRounding = 1e-12;
+
+double largest(const Vec& v) {
+  return std::fmax(std::fabs(v.x), std::fmax(std::fabs(v.y), std::fabs(v.z)));
+}
+
+struct Triangle {
+  Vec p0, e1, e2;
+  explicit Triangle(const TriangleRow<Value>& t)
+      : p0(t.p0_x, t.p0_y, t.p0_z),
+        e1(Vec(t.p1_x, t.p1_y, t.p1_z) - p0),
+        e2(Vec(t.p2_x, t.p2_y, t.p2_z) - p0) {}
+};
+
+struct TriangleHit {
+  double t, u, v;
+};
+
+/// Moeller, Trumbore 1997.
+std::optional<TriangleHit> meet(const Triangle& triangle, const Vec& origin, const Vec& direction) {
+  const Vec p = glm::cross(direction, triangle.e2);
+  const double determinant = glm::dot(triangle.e1, p);
+  if (determinant == 0) return {};
+  const Vec to_origin = origin - triangle.p0;
+  const double u = glm::dot(to_origin, p) / determinant;
+  const Vec q = glm::cross(to_origin, triangle.e1);
+  const double v = glm::dot(direction, q) / determinant;
+  // Neighbours overlap by a rounding error, so that no ray passes between them.
+  if (!(u >= -kRounding && v >= -kRounding && u + v <= 1 + kRounding)) return {};
+  return TriangleHit{glm::dot(triangle.e2, q) / determinant, u, v};
+}
+
+/// Smallest distance > 0 to a sphere, or infinity.
+double meet(const SphereRow<Value>& sphere, const Vec& origin, const Vec& direction) {
+  const Vec way = origin - Vec(sphere.center_x, sphere.center_y, sphere.center_z);
+  const double radius = double(sphere.radius);
+  const double a = glm::dot(direction, direction), b = glm::dot(way, direction);
+  const double discriminant = b * b - a * (glm::dot(way, way) - radius * radius);
+  if (discriminant < 0) return std::numeric_limits<double>::infinity();
+  const double root = std::sqrt(discriminant);
+  const double near = (-b - root) / a, far = (-b + root) / a;
+  return near > 0 ? near : far > 0 ? far : std::numeric_limits<double>::infinity();
+}
+
+double meet(const PlaneRow<Value>& plane, const Vec& origin, const Vec& direction) {
+  const Vec normal(plane.normal_x, plane.normal_y, plane.normal_z);
+  return (double(plane.distance) - glm::dot(normal, origin)) / glm::dot(normal, direction);
+}
+
+Point triangle_point(const Scene& scene, uint32_t prim, const TriangleHit& hit) {
+  const TriangleRow<Value> row = scene.triangles.row(prim);
+  const Triangle triangle(row);
+  Point point{};
+  point.t = hit.t;
+  point.position = triangle.p0 + hit.u * triangle.e1 + hit.v * triangle.e2;
+  point.ng = point.ns = glm::normalize(glm::cross(triangle.e1, triangle.e2));
+  point.offset = kRounding * double(row.extent);
+  point.prim = prim;
+  point.parameter = row.parameter;
+  point.light = row.light;
+  const GeometryKind kind = scene.bins[scene.prim_bin[prim]].geometry;
+  if (kind == GeometryKind::kTriangleVertex) {
+    const TriangleVertexRow<Value> n = scene.triangle_vertices.row(prim);
+    const Vec sum = (1 - hit.u - hit.v) * Vec(n.n0_x, n.n0_y, n.n0_z) +
+                    hit.u * Vec(n.n1_x, n.n1_y, n.n1_z) + hit.v * Vec(n.n2_x, n.n2_y, n.n2_z);
+    const double side = glm::dot(sum, point.ng);
+    if (side != 0) point.ns = glm::normalize(sum) * (side < 0 ? -1.0 : 1.0);
+  }
+  return point;
+}
+
+Point sphere_point(const SphereRow<Value>& row, const RaySegment& ray, double t) {
+  const Vec center(row.center_x, row.center_y, row.center_z);
+  const Vec outward = glm::normalize(ray.origin + t * ray.direction - center);
+  Point point{};
+  point.t = t;
+  point.position = center + double(row.radius) * outward;
+  point.ng = point.ns = row.inward ? -outward : outward;
+  point.offset = kRounding * (largest(center) + double(row.radius));
+  point.parameter = row.parameter;
+  point.light = row.light;
+  return point;
+}
+
+Point plane_point(const PlaneRow<Value>& row, const RaySegment& ray, double t) {
+  Point point{};
+  point.t = t;
+  point.position = ray.origin + t * ray.direction;
+  point.ng = point.ns = Vec(row.normal_x, row.normal_y, row.normal_z);
+  point.offset = kRounding * (largest(point.position) + std::fabs(double(row.distance)));
+  point.parameter = row.parameter;
+  point.light = kNone;
+  return point;
+}
+
+}  // namespace
+
+std::optional<Point> nearest(const Scene& scene, const RaySegment& ray) {
+  std::optional<Point> best;
+  double t_max = ray.t_max;
+  for (uint32_t i = 0; i < scene.triangles.size(); ++i) {
+    const auto hit = meet(Triangle(scene.triangles.row(i)), ray.origin, ray.direction);
+    if (!hit || !(hit->t > 0 && hit->t <= t_max)) continue;
+    t_max = hit->t;
+    best = triangle_point(scene, i, *hit);
+  }
+  uint32_t prim = scene.triangles.size();
+  for (uint32_t i = 0; i < scene.spheres.size(); ++i, ++prim) {
+    const SphereRow<Value> row = scene.spheres.row(i);
+    const double t = meet(row, ray.origin, ray.direction);
+    if (!(t <= t_max)) continue;
+    t_max = t;
+    best = sphere_point(row, ray, t);
+    best->prim = prim;
+  }
+  for (uint32_t i = 0; i < scene.planes.size(); ++i, ++prim) {
+    const PlaneRow<Value> row = scene.planes.row(i);
+    const double t = meet(row, ray.origin, ray.direction);
+    if (!(t > 0 && t <= t_max)) continue;
+    t_max = t;
+    best = plane_point(row, ray, t);
+    best->prim = prim;
+  }
+  return best;
+}
+
+bool occluded(const Scene& scene, const Vec& from, const Vec& to) {
+  const Vec way = to - from;
+  const auto between = [](double t) { return t > 0 && t < 1; };
+  const auto stops = [&](uint32_t prim) {
+    return !material_traits(scene.bins[scene.prim_bin[prim]].material).see_through;
+  };
+  for (uint32_t i = 0; i < scene.triangles.size(); ++i) {
+    const auto hit = meet(Triangle(scene.triangles.row(i)), from, way);
+    if (hit && between(hit->t) && stops(i)) return true;
+  }
+  uint32_t prim = scene.triangles.size();
+  for (uint32_t i = 0; i < scene.spheres.size(); ++i, ++prim)
+    if (between(meet(scene.spheres.row(i), from, way)) && stops(prim)) return true;
+  for (uint32_t i = 0; i < scene.planes.size(); ++i, ++prim)
+    if (between(meet(scene.planes.row(i), from, way)) && stops(prim)) return true;
+  return false;
+}
+
+Axes::Axes(const Vec& n) : z(n) {
+  const double sign = std::copysign(1.0, n.z);
+  const double a = -1 / (sign + n.z), b = n.x * n.y * a;
+  x = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
+  y = {b, sign + n.y * n.y * a, -n.y};
+}
+
+glm::dvec2 disc(double u, double v) {
+  const double a = 2 * u - 1, b = 2 * v - 1;
+  if (a == 0 && b == 0) return {0, 0};
+  if (std::fabs(a) > std::fabs(b)) {
+    const double angle = std::numbers::pi / 4 * b / a;
+    return {a * std::cos(angle), a * std::sin(angle)};
+  }
+  const double angle = std::numbers::pi / 2 - std::numbers::pi / 4 * a / b;
+  return {b * std::cos(angle), b * std::sin(angle)};
+}
+
+Vec cosine_hemisphere(double u, double v) {
+  const glm::dvec2 p = disc(u, v);
+  return {p.x, p.y, std::sqrt(std::fmax(0, 1 - p.x * p.x - p.y * p.y))};
+}
+
+Vec cone(double measure, double u, double v) {
+  const double cos = 1 - u * measure, sin = std::sqrt(std::fmax(0, 1 - cos * cos));
+  const double phi = 2 * std::numbers::pi * v;
+  return {sin * std::cos(phi), sin * std::sin(phi), cos};
+}
+
+}  // namespace yat::reference

@@ -1,0 +1,96 @@
+#pragma once
+// Parts of the oracle (reference.h): geometry, optics and lights in double precision, one row at a
+// time. Formulas are those of textbooks and of the scene format, not those of the kernels; only
+// what decides between paths (warps of random numbers, choice of lobe and light) is the same.
+
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "scene/compile.h"
+#include "wavefront/plan.h"
+
+namespace yat::reference {
+
+using Vec = glm::dvec3;
+
+struct RaySegment {
+  Vec origin, direction;  ///< unit direction
+  double t_max;
+};
+
+struct Point {
+  double t;  ///< distance along the ray
+  Vec position;
+  Vec ng, ns;     ///< unit; the shape's outside
+  double offset;  ///< what a ray that leaves must keep off: rounding of this arithmetic
+  uint32_t prim;  ///< primitive row
+  uint32_t parameter, light;
+};
+
+/// The nearest hit in (0, t_max], by trying every primitive.
+std::optional<Point> nearest(const Scene& scene, const RaySegment& ray);
+/// Whether anything that is not see-through lies strictly between the two points.
+bool occluded(const Scene& scene, const Vec& from, const Vec& to);
+
+// ---- Warps -------------------------------------------------------------------------------------
+
+/// Orthonormal frame about z (Duff et al. 2017).
+struct Axes {
+  Vec x, y, z;
+  explicit Axes(const Vec& normal);
+  Vec to_local(const Vec& v) const { return {glm::dot(x, v), glm::dot(y, v), glm::dot(z, v)}; }
+  Vec to_scene(const Vec& v) const { return v.x * x + v.y * y + v.z * z; }
+};
+/// Concentric (Shirley, Chiu 1997).
+glm::dvec2 disc(double u, double v);
+Vec cosine_hemisphere(double u, double v);
+/// Uniform in the cone with 1 - cos(half angle) = measure.
+Vec cone(double measure, double u, double v);
+
+// ---- Materials
+// -----------------------------------------------------------------------------------
+
+struct Bounce {
+  Vec wi;          ///< local
+  Vec weight;      ///< f |cos| / pdf
+  double pdf = 0;  ///< solid angle; 0: delta
+};
+
+/// A material row seen from wo (local, wo.z >= 0).
+class Bsdf {
+ public:
+  Bsdf(const Scene& scene, MaterialKind kind, uint32_t row, const Vec& wo, bool outside)
+      : scene_(scene), kind_(kind), row_(row), wo_(wo), outside_(outside) {}
+  Vec evaluate(const Vec& wi) const;
+  double pdf(const Vec& wi) const;
+  Bounce sample(double lobe, double u, double v) const;
+
+ private:
+  Bounce sample_glass(double lobe) const;
+
+  const Scene& scene_;
+  MaterialKind kind_;
+  uint32_t row_;
+  Vec wo_;
+  bool outside_;
+};
+
+// ---- Lights
+// --------------------------------------------------------------------------------------
+
+struct LightPoint {
+  Vec wi{0.0};        ///< unit, towards the light
+  Vec to{0.0};        ///< where the shadow ray ends
+  Vec arriving{0.0};  ///< radiance / pdf
+  double pdf = 0;     ///< solid angle, choice included; 0: cannot be hit
+};
+
+LightPoint sample_light(const Scene& scene, const Vec& receiver, float choice, double u, double v);
+/// Density with which sample_light chooses the point `at` of its light from `receiver`.
+double light_pdf(const Scene& scene, const Vec& receiver, const Point& at, double cos);
+Vec light_radiance(const Scene& scene, uint32_t light);
+
+}  // namespace yat::reference

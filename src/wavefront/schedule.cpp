@@ -1,0 +1,245 @@
+#include "wavefront/schedule.h"
+
+#include <algorithm>
+
+namespace yat {
+
+Worker::Worker(const Scene& scene, const Plan& plan, uint32_t batch_rows, bool trace, Film& film)
+    : scene_(scene),
+      view_(scene.view()),
+      plan_(plan),
+      kernels_(*plan.kernels),
+      film_(film),
+      batch_(scene, plan, batch_rows),
+      clock_(trace) {}
+
+void Worker::count(Stage stage, uint64_t rows, LaneCount lanes) {
+  StageCount& c = counted_.stats.stages[uint32_t(stage)];
+  ++c.calls;
+  c.rows += rows;
+  c.lanes_active += lanes.rows;
+  c.lanes_total += lanes.steps * kernels_.lanes;
+}
+
+void Worker::count(Stage stage, uint64_t rows) {
+  count(stage, rows, {rows, (rows + kernels_.lanes - 1) / kernels_.lanes});
+}
+
+void Worker::generate(WorkCursor& work) {
+  const CameraSample<Column>& camera = batch_.camera.columns();
+  clock_.enter(Stage::kGenerate);
+  const uint32_t n = work.take(batch_.free_count, camera.pixel, camera.sample);
+  if (!n) return;
+  const SampleSum<Column>& sums = batch_.sums.columns();
+  const FilmSettings& film = scene_.film;
+  for (uint32_t i = 0; i < n; ++i) {
+    const uint32_t slot = batch_.free_slots[--batch_.free_count];
+    const uint32_t x = camera.pixel[i] & 0xffffu, y = camera.pixel[i] >> 16;
+    camera.slot[i] = slot;
+    sums.r[slot] = sums.g[slot] = sums.b[slot] = 0;
+    sums.pixel[slot] = (y - film.crop_y0) * film_.width() + (x - film.crop_x0);
+    batch_.slot_sample[slot] = camera.sample[i];
+  }
+  const auto draw_film = kernels_.draw[uint32_t(plan_.sampler)];
+  draw_film(plan_.transport.seed, Dimension::kFilm, camera.pixel, camera.sample, nullptr,
+            batch_.film_u.data(), batch_.film_v.data(), n);
+  if (plan_.thin_lens)
+    draw_film(plan_.transport.seed, Dimension::kLens, camera.pixel, camera.sample, nullptr,
+              batch_.lens_u.data(), batch_.lens_v.data(), n);
+  kernels_.generate_camera_rays[plan_.thin_lens](
+      view_, batch_.camera.view(), batch_.film_u.data(), batch_.film_v.data(),
+      plan_.thin_lens ? batch_.lens_u.data() : nullptr,
+      plan_.thin_lens ? batch_.lens_v.data() : nullptr,
+      columns_from(batch_.rays[current_].columns(), count_),
+      columns_from(batch_.paths[current_].columns(), count_), n);
+  count(Stage::kGenerate, n);
+  counted_.stats.camera_rays += n;
+  count_ += n;
+}
+
+void Worker::turn() {
+  const uint32_t next = current_ ^ 1;
+  out_ = {};
+  out_.rays = batch_.rays[next].columns();
+  out_.paths = batch_.paths[next].columns();
+  out_.shadow_rays = batch_.shadow.columns();
+  out_.finished = batch_.finished.data();
+  intersect();
+  sort();
+  shade();
+  if (out_.shadow_count) shadow();
+  accumulate();
+  clock_.enter(Stage::kSchedule);
+  counted_.stats.bounce_rays += out_.path_count;
+  counted_.stats.shadow_rays += out_.shadow_count;
+  current_ = next;
+  count_ = out_.path_count;
+}
+
+void Worker::intersect() {
+  clock_.enter(Stage::kIntersect, count_);
+  const Ray<ConstColumn> rays = batch_.rays[current_].view();
+  const Hit<Column>& hits = batch_.hits.columns();
+  LaneCount lanes{count_, (count_ + kernels_.lanes - 1) / kernels_.lanes};
+  if (plan_.triangles) {
+    lanes = kernels_.intersect_closest(view_.geometry.tree, rays, hits, count_, batch_.scratch);
+  } else {
+    std::copy_n(rays.t_max, count_, hits.t);
+    std::fill_n(hits.prim, count_, kNone);
+  }
+  const uint32_t first_sphere = view_.geometry.triangles.count;
+  if (plan_.spheres)
+    kernels_.intersect_spheres(view_.geometry.spheres, first_sphere, rays, hits, count_);
+  if (plan_.planes)
+    kernels_.intersect_planes(view_.geometry.planes, first_sphere + view_.geometry.spheres.count,
+                              rays, hits, count_);
+  count(Stage::kIntersect, count_, lanes);
+}
+
+void Worker::sort() {
+  clock_.enter(Stage::kSort, count_);
+  kernels_.classify_hits(view_.geometry.prim_bin, plan_.emissive_bins, plan_.transport.max_depth,
+                         batch_.hits.view(), batch_.paths[current_].columns().depth,
+                         batch_.bin.data(), count_);
+  // Counting sort. Two histograms: neighbouring rows are often of one bin, and an increment that
+  // waits for the store before it takes several cycles.
+  uint32_t even[kMaxBins] = {}, odd[kMaxBins] = {};
+  const uint32_t* bin = batch_.bin.data();
+  uint32_t i = 0;
+  for (; i + 1 < count_; i += 2) {
+    ++even[bin[i]];
+    ++odd[bin[i + 1]];
+  }
+  if (i < count_) ++even[bin[i]];
+  const uint32_t bins = uint32_t(plan_.bins.size());
+  uint32_t place[kMaxBins];
+  uint32_t sum = 0;
+  for (uint32_t b = 0; b < bins; ++b) {
+    bin_begin_[b] = place[b] = sum;
+    sum += even[b] + odd[b];
+  }
+  bin_begin_[bins] = sum;
+  uint32_t* order = batch_.order.data();
+  for (i = 0; i < count_; ++i) order[place[bin[i]]++] = i;
+  count(Stage::kSort, count_);
+}
+
+void Worker::shade() {
+  for (uint32_t b = 1; b < plan_.bins.size(); ++b)
+    for (uint32_t begin = bin_begin_[b]; begin < bin_begin_[b + 1]; begin += kChunkRows)
+      shade_bin(plan_.bins[b], begin, std::min(begin + kChunkRows, bin_begin_[b + 1]));
+}
+
+void Worker::draw(Dimension dimension, float* first, float* second, uint32_t n) {
+  const PathState<Column>& paths = batch_.chunk_paths.columns();
+  kernels_.draw[uint32_t(plan_.sampler)](plan_.transport.seed, dimension, paths.pixel, paths.sample,
+                                         paths.depth, first, second, n);
+}
+
+void Worker::shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end) {
+  const uint32_t n = end - begin;
+  const Surface<ConstColumn> surfaces = batch_.surfaces.view();
+  const PathState<ConstColumn> paths = batch_.chunk_paths.view();
+  const Randoms<Column>& randoms = batch_.randoms.columns();
+
+  clock_.enter(Stage::kSurface, n);
+  kernels_.make_surfaces[uint32_t(bin.bin.geometry)](
+      view_, batch_.order.data() + begin, batch_.rays[current_].view(), batch_.hits.view(),
+      batch_.paths[current_].view(), batch_.surfaces.columns(), batch_.chunk_paths.columns(), n);
+  count(Stage::kSurface, n);
+
+  if (bin.emission) {
+    clock_.enter(Stage::kEmission, n);
+    kernels_.add_emission(view_, surfaces, paths, batch_.sums.columns(), counted_.drops, n);
+    count(Stage::kEmission, n);
+  }
+
+  // Columns that this bin does not draw are not there.
+  Randoms<ConstColumn> drawn{};
+  clock_.enter(Stage::kDraw, n);
+  if (bin.sample_lights) {
+    draw(Dimension::kLight, randoms.light_u, randoms.light_v, n);
+    drawn.light_u = randoms.light_u;
+    drawn.light_v = randoms.light_v;
+  }
+  if (bin.draw_choice || bin.draw_lobe)
+    draw(Dimension::kChoice, randoms.light_choice, bin.draw_lobe ? randoms.lobe : nullptr, n);
+  if (bin.draw_choice) drawn.light_choice = randoms.light_choice;
+  if (bin.draw_lobe) drawn.lobe = randoms.lobe;
+  if (bin.draw_direction) {
+    draw(Dimension::kBsdf, randoms.bsdf_u, randoms.bsdf_v, n);
+    drawn.bsdf_u = randoms.bsdf_u;
+    drawn.bsdf_v = randoms.bsdf_v;
+  }
+  if (bin.draw_roulette) {
+    draw(Dimension::kRoulette, randoms.roulette, nullptr, n);
+    drawn.roulette = randoms.roulette;
+  }
+  count(Stage::kDraw, n);
+
+  LightSample<ConstColumn> lights{};
+  if (bin.sample_lights) {
+    clock_.enter(Stage::kLightSample, n);
+    kernels_.sample_lights[plan_.light_kernel](view_, surfaces, drawn, batch_.lights.columns(), n);
+    lights = batch_.lights.view();
+    count(Stage::kLightSample, n);
+  }
+
+  clock_.enter(Stage::kShade, n);
+  const uint32_t material = uint32_t(bin.bin.material);
+  kernels_.shade[material]({surfaces, paths, drawn, lights, view_.parameters[material]},
+                           plan_.transport, out_, counted_.drops, n);
+  count(Stage::kShade, n);
+}
+
+void Worker::shadow() {
+  const uint32_t n = out_.shadow_count;
+  clock_.enter(Stage::kIntersectShadow, n);
+  const ShadowRay<ConstColumn> rays = batch_.shadow.view();
+  uint32_t* occluded = batch_.occluded.data();
+  LaneCount lanes{n, (n + kernels_.lanes - 1) / kernels_.lanes};
+  if (plan_.triangles)
+    lanes = kernels_.intersect_shadow[plan_.shadow_mask](view_.geometry.tree, rays, occluded, n,
+                                                         batch_.scratch);
+  else
+    std::fill_n(occluded, n, 0u);
+  if (plan_.spheres) kernels_.shadow_spheres(view_.geometry.spheres, rays, occluded, n);
+  if (plan_.planes) kernels_.shadow_planes(view_.geometry.planes, rays, occluded, n);
+  count(Stage::kIntersectShadow, n, lanes);
+}
+
+void Worker::accumulate() {
+  // Paths of the ended bin, then those that ended while shading: their last light counts too, so
+  // all of them go to the film after it has been added.
+  const uint32_t ended = bin_begin_[1];
+  clock_.enter(Stage::kAccumulate, out_.shadow_count);
+  if (out_.shadow_count)
+    kernels_.add_unoccluded(batch_.shadow.view(), batch_.occluded.data(), batch_.sums.columns(),
+                            out_.shadow_count);
+  const uint32_t* slot = batch_.paths[current_].columns().slot;
+  for (uint32_t i = 0; i < ended; ++i) out_.finished[out_.finished_count++] = slot[batch_.order[i]];
+  // Slots are in no order: the film's pixels are asked for a few paths ahead.
+  constexpr uint32_t kAhead = 12;
+  const uint32_t* pixel = batch_.sums.columns().pixel;
+  for (uint32_t i = 0; i < out_.finished_count; ++i) {
+    if (i + kAhead < out_.finished_count)
+      __builtin_prefetch(film_.data() + pixel[out_.finished[i + kAhead]], 1);
+    flush(out_.finished[i]);
+  }
+  count(Stage::kAccumulate, out_.shadow_count);
+  counted_.stats.paths += out_.finished_count;
+}
+
+void Worker::flush(uint32_t slot) {
+  const SampleSum<Column>& sums = batch_.sums.columns();
+  const uint32_t pixel = sums.pixel[slot];
+  if (!film_.data()[pixel].add(sums.r[slot], sums.g[slot], sums.b[slot])) {
+    const FilmSettings& film = scene_.film;
+    const uint32_t x = film.crop_x0 + pixel % film_.width();
+    const uint32_t y = film.crop_y0 + pixel / film_.width();
+    counted_.drops.add(DropCause::kOther, y << 16 | x, batch_.slot_sample[slot]);
+  }
+  batch_.free_slots[batch_.free_count++] = slot;
+}
+
+}  // namespace yat

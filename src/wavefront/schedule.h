@@ -1,0 +1,99 @@
+#pragma once
+// One worker's loop (docs/architecture.md, "One ray"): turn after turn, every path under way goes
+// on by one vertex, and paths that end make room for new ones.
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/stats.h"
+#include "base/ticks.h"
+#include "film/film.h"
+#include "wavefront/batch.h"
+#include "wavefront/plan.h"
+#include "wavefront/work.h"
+
+namespace yat {
+
+/// Charges time to stages: each tick of a worker belongs to the stage last entered.
+class StageClock {
+ public:
+  explicit StageClock(bool trace) : trace_(trace), last_(ticks()) {}
+  /// Ends the stage under way, and begins `stage` which will see `rows`.
+  void enter(Stage stage, uint64_t rows = 0) {
+    const uint64_t now = ticks();
+    spent_[uint32_t(stage_)] += now - last_;
+    if (trace_ && stage_ != Stage::kSchedule && now != last_)
+      spans_.push_back({stage_, 0, last_, now, rows_});
+    stage_ = stage;
+    rows_ = rows;
+    last_ = now;
+  }
+  /// Ticks of each stage since the last call.
+  std::array<uint64_t, kStages> take() {
+    enter(stage_, rows_);
+    return std::exchange(spent_, {});
+  }
+  /// Spans so far; times are ticks, not nanoseconds.
+  std::vector<TraceSpan>& spans() { return spans_; }
+
+ private:
+  bool trace_;
+  Stage stage_ = Stage::kSchedule;
+  uint64_t rows_ = 0, last_;
+  std::array<uint64_t, kStages> spent_{};
+  std::vector<TraceSpan> spans_;
+};
+
+/// What a worker adds up. Not shared: the render collects it now and then.
+struct WorkerCount {
+  RenderStats stats;  ///< without nanoseconds and drops
+  DropLog drops;
+};
+
+class Worker {
+ public:
+  /// film: where ended paths go; rows of pixels that no other worker touches at the same time.
+  Worker(const Scene& scene, const Plan& plan, uint32_t batch_rows, bool trace, Film& film);
+
+  /// Rows that new paths may take.
+  uint32_t free_rows() const { return batch_.free_count; }
+  /// Paths under way.
+  uint32_t under_way() const { return count_; }
+  /// Starts up to free_rows() paths of `work`.
+  void generate(WorkCursor& work);
+  /// Takes every path under way one vertex further, and adds those that end to the film.
+  void turn();
+
+  StageClock& clock() { return clock_; }
+  WorkerCount& counted() { return counted_; }
+  size_t bytes() const { return batch_.bytes(); }
+
+ private:
+  void intersect();
+  void sort();
+  void shade();
+  void shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end);
+  void draw(Dimension dimension, float* first, float* second, uint32_t n);
+  void shadow();
+  void accumulate();
+  void flush(uint32_t slot);
+  void count(Stage stage, uint64_t rows);
+  void count(Stage stage, uint64_t rows, LaneCount lanes);
+
+  const Scene& scene_;
+  const SceneView view_;
+  const Plan& plan_;
+  const KernelTable& kernels_;
+  Film& film_;
+  Batch batch_;
+  StageClock clock_;
+  WorkerCount counted_;
+  uint32_t current_ = 0;  ///< which of the two pairs holds the paths under way
+  uint32_t count_ = 0;    ///< rows in it
+  uint32_t bin_begin_[kMaxBins + 1] = {};
+  ShadeOutput out_;
+};
+
+}  // namespace yat

@@ -1,1 +1,0 @@
-#include "wavefront/render.h"

@@ -1,0 +1,88 @@
+#include "wavefront/work.h"
+
+#include <algorithm>
+
+namespace yat {
+
+namespace {
+
+constexpr uint32_t kBlock = 8;
+constexpr uint32_t kLargestTile = 256;
+/// Enough units that the last ones to finish are a small part of a render.
+constexpr uint32_t kUnitsPerWorker = 16;
+/// Without a need, a unit is no longer than this: some 50 ms of work.
+constexpr uint64_t kPathsPerUnit = uint64_t(1) << 17;
+
+uint64_t tiles_of(uint32_t width, uint32_t height, uint32_t tile) {
+  return uint64_t((width + tile - 1) / tile) * ((height + tile - 1) / tile);
+}
+
+uint32_t choose_tile(uint32_t width, uint32_t height, uint32_t samples, uint32_t workers) {
+  uint32_t tile = 64;
+  while (tile > kBlock && (tiles_of(width, height, tile) < uint64_t(kUnitsPerWorker) * workers ||
+                           uint64_t(tile) * tile * samples > kPathsPerUnit))
+    tile /= 2;
+  return tile;
+}
+
+}  // namespace
+
+WorkList::WorkList(const FilmSettings& film, uint32_t first_sample, uint32_t end_sample,
+                   uint32_t tile_size, uint32_t workers) {
+  const uint32_t width = film.crop_width(), height = film.crop_height();
+  const uint32_t samples = end_sample > first_sample ? end_sample - first_sample : 0;
+  if (!width || !height || !samples) return;
+  const uint32_t tile =
+      tile_size ? std::min(tile_size, kLargestTile) : choose_tile(width, height, samples, workers);
+  const uint64_t tiles = tiles_of(width, height, tile);
+  // Units per tile. One worker needs no split; films of one's own are for small pictures.
+  const uint64_t enough = uint64_t(kUnitsPerWorker) * workers / 4;
+  const uint32_t splits = workers == 1 || tiles >= enough
+                              ? 1
+                              : uint32_t(std::min<uint64_t>(samples, (enough + tiles - 1) / tiles));
+  shares_pixels_ = splits > 1;
+  units_.reserve(tiles * splits);
+  for (uint32_t y = film.crop_y0; y < film.crop_y1; y += tile)
+    for (uint32_t x = film.crop_x0; x < film.crop_x1; x += tile)
+      for (uint32_t split = 0; split < splits; ++split)
+        units_.push_back({x, y, std::min(x + tile, film.crop_x1), std::min(y + tile, film.crop_y1),
+                          first_sample + uint32_t(uint64_t(samples) * split / splits),
+                          first_sample + uint32_t(uint64_t(samples) * (split + 1) / splits)});
+}
+
+void WorkCursor::start(const WorkUnit& unit) {
+  pixels_.clear();
+  blocks_.clear();
+  for (uint32_t y = unit.y0; y < unit.y1; y += kBlock)
+    for (uint32_t x = unit.x0; x < unit.x1; x += kBlock) {
+      blocks_.push_back(uint32_t(pixels_.size()));
+      for (uint32_t j = y; j < std::min(y + kBlock, unit.y1); ++j)
+        for (uint32_t i = x; i < std::min(x + kBlock, unit.x1); ++i) pixels_.push_back(j << 16 | i);
+    }
+  first_sample_ = sample_ = unit.first_sample;
+  end_sample_ = unit.end_sample;
+  block_ = 0;
+  place_ = 0;
+}
+
+uint32_t WorkCursor::take(uint32_t wanted, uint32_t* pixel, uint32_t* sample) {
+  uint32_t taken = 0;
+  while (taken < wanted && !empty()) {
+    const uint32_t first = blocks_[block_];
+    const uint32_t end =
+        block_ + 1 < blocks_.size() ? blocks_[block_ + 1] : uint32_t(pixels_.size());
+    const uint32_t run = std::min(wanted - taken, end - first - place_);
+    std::copy_n(pixels_.data() + first + place_, run, pixel + taken);
+    std::fill_n(sample + taken, run, sample_);
+    taken += run;
+    place_ += run;
+    if (first + place_ < end) continue;
+    place_ = 0;
+    if (++sample_ < end_sample_) continue;
+    sample_ = first_sample_;
+    ++block_;
+  }
+  return taken;
+}
+
+}  // namespace yat

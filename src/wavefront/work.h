@@ -1,0 +1,63 @@
+#pragma once
+// What there is to do: the paths of a picture, cut into units that workers claim one at a time.
+//
+// A unit is a tile of pixels and a range of samples. Within it, paths are listed by 8 x 8 pixel
+// block, then sample, then pixel, so that the camera rays of a batch lie close together.
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "film/settings.h"
+#include "soa/columns.h"
+#include "soa/records.h"
+
+namespace yat {
+
+/// Pixels of the full image, ends exclusive.
+struct WorkUnit {
+  uint32_t x0, y0, x1, y1;
+  uint32_t first_sample, end_sample;
+  uint64_t paths() const { return uint64_t(x1 - x0) * (y1 - y0) * (end_sample - first_sample); }
+};
+
+/// The units of a render, and which of them are taken.
+class WorkList {
+ public:
+  /// Splits the crop window into tiles of tile_size (0: chosen from the amount of work) and, where
+  /// there are fewer tiles than `workers` can share evenly, each tile into ranges of samples.
+  WorkList(const FilmSettings& film, uint32_t first_sample, uint32_t end_sample, uint32_t tile_size,
+           uint32_t workers);
+
+  /// The next unit, or nullptr. From any thread.
+  const WorkUnit* claim() {
+    const size_t i = next_.fetch_add(1, std::memory_order_relaxed);
+    return i < units_.size() ? &units_[i] : nullptr;
+  }
+  const std::vector<WorkUnit>& units() const { return units_; }
+  /// Whether two units have pixels in common: then each worker needs a film of its own.
+  bool shares_pixels() const { return shares_pixels_; }
+
+ private:
+  std::vector<WorkUnit> units_;
+  std::atomic<size_t> next_{0};
+  bool shares_pixels_ = false;
+};
+
+/// Lists the paths of a unit.
+class WorkCursor {
+ public:
+  void start(const WorkUnit& unit);
+  bool empty() const { return block_ == blocks_.size(); }
+  /// Writes pixel (y << 16 | x) and sample of up to `wanted` paths, and returns how many.
+  uint32_t take(uint32_t wanted, uint32_t* pixel, uint32_t* sample);
+
+ private:
+  std::vector<uint32_t> pixels_;  ///< of the tile, block by block
+  std::vector<uint32_t> blocks_;  ///< first pixel of each block
+  size_t block_ = 0;
+  uint32_t place_ = 0;  ///< in the block
+  uint32_t sample_ = 0, first_sample_ = 0, end_sample_ = 0;
+};
+
+}  // namespace yat

@@ -1,0 +1,5 @@
+yat_test(work LABELS fast LIBS yat_wavefront SOURCES test_work.cpp)
+yat_test(plan LABELS fast LIBS yat_wavefront SOURCES test_plan.cpp)
+yat_test(renders LABELS render statistics per_isa LIBS yat_wavefront SOURCES test_renders.cpp)
+yat_test(determinism LABELS render per_isa LIBS yat_wavefront SOURCES test_determinism.cpp)
+yat_test(oracle LABELS render statistics per_isa LIBS yat_wavefront SOURCES test_oracle.cpp)

@@ -1,0 +1,81 @@
+// What a scene does not hold does not run, and the plan says so.
+
+#include "wavefront/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "render_scenes.h"
+
+namespace yat {
+namespace {
+
+std::string pinhole_room(const std::string& inside) {
+  return view_text("0 -.9 0", "0 0 0", 60, 8, 8) + matte_text(".5 .5 .5") + room_text(1) + inside +
+         "WorldEnd\n";
+}
+
+TEST(Plan, SkipsWhatTheSceneDoesNotHold) {
+  const KernelTable& kernels = select_kernels();
+  const Scene scene =
+      compile_text(pinhole_room("LightSource \"point\" \"color L\" [1 1 1]\n"), kernels);
+  const Plan plan = make_plan(scene, kernels, {});
+  EXPECT_TRUE(plan.triangles);
+  EXPECT_FALSE(plan.spheres || plan.planes || plan.thin_lens || plan.shadow_mask);
+  EXPECT_EQ(plan.light_kernel, uint32_t(LightKind::kPoint));
+  EXPECT_EQ(plan.emissive_bins, 0u);
+  ASSERT_EQ(plan.bins.size(), 2u);
+  EXPECT_TRUE(plan.bins[1].sample_lights && plan.bins[1].draw_direction);
+  EXPECT_FALSE(plan.bins[1].emission || plan.bins[1].draw_choice || plan.bins[1].draw_lobe);
+
+  const std::string text = describe_plan(plan, scene);
+  for (const char* expected :
+       {"intersect_closest: 12 triangles", "sample_lights (point)", "shade matte",
+        "intersect_planes: no plane in the scene", "intersect_spheres: no sphere in the scene",
+        "add_emission: no surface emits light", "draw lens: the camera is a pinhole",
+        "shade glass: no surface of this material", "draw choice: there is one light"})
+    EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
+}
+
+TEST(Plan, RunsWhatTheSceneHolds) {
+  const KernelTable& kernels = select_kernels();
+  const Scene scene = compile_text(everything_text(8, 8), kernels);
+  const Plan plan = make_plan(scene, kernels, {});
+  EXPECT_TRUE(plan.triangles && plan.spheres && plan.planes && plan.thin_lens && plan.shadow_mask &&
+              plan.lights);
+  EXPECT_EQ(plan.light_kernel, uint32_t(LightKind::kCount));
+  uint32_t delta = 0, lobes = 0;
+  for (uint32_t b = 1; b < plan.bins.size(); ++b) {
+    const BinPlan& bin = plan.bins[b];
+    const MaterialTraits traits = material_traits(bin.bin.material);
+    EXPECT_EQ(bin.sample_lights, !traits.delta);
+    EXPECT_EQ(bin.draw_roulette, !traits.see_through);
+    delta += traits.delta;
+    lobes += bin.draw_lobe;
+    EXPECT_EQ(plan.emissive_bins >> b & 1, uint64_t(bin.emission || traits.see_through));
+  }
+  EXPECT_EQ(delta, 3u);
+  EXPECT_EQ(lobes, 1u);
+}
+
+TEST(Plan, WithoutVerticesNoLightIsSampled) {
+  const KernelTable& kernels = select_kernels();
+  const Scene scene = compile_text(everything_text(8, 8), kernels);
+  PlanOptions options;
+  options.max_depth = 0;
+  const Plan plan = make_plan(scene, kernels, options);
+  EXPECT_FALSE(plan.lights);
+  for (const BinPlan& bin : plan.bins) EXPECT_FALSE(bin.sample_lights || bin.draw_roulette);
+  EXPECT_NE(describe_plan(plan, scene).find("paths end at their first vertex"), std::string::npos);
+}
+
+TEST(Plan, ATableWithoutANeededKernelIsRefused) {
+  KernelTable kernels = select_kernels();
+  const Scene scene = compile_text(everything_text(8, 8), kernels);
+  kernels.shadow_spheres = nullptr;
+  EXPECT_THROW(make_plan(scene, kernels, {}), std::logic_error);
+}
+
+}  // namespace
+}  // namespace yat

@@ -1,0 +1,67 @@
+// Every path of a render is listed exactly once, however the work is cut.
+
+#include "wavefront/work.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <utility>
+
+namespace yat {
+namespace {
+
+FilmSettings window(uint32_t x0, uint32_t x1, uint32_t y0, uint32_t y1) {
+  FilmSettings film;
+  film.crop_x0 = x0, film.crop_x1 = x1, film.crop_y0 = y0, film.crop_y1 = y1;
+  return film;
+}
+
+TEST(WorkList, EveryPathOnceWhateverTheCut) {
+  const FilmSettings film = window(3, 40, 5, 22);
+  for (const uint32_t tile : {0u, 1u, 7u, 8u, 64u, 100000u})
+    for (const uint32_t workers : {1u, 2u, 7u})
+      for (const uint32_t take : {1u, 13u, 5000u}) {
+        WorkList list(film, 2, 7, tile, workers);
+        std::map<std::pair<uint32_t, uint32_t>, int> seen;
+        std::vector<uint32_t> pixel(take), sample(take);
+        while (const WorkUnit* unit = list.claim()) {
+          WorkCursor cursor;
+          cursor.start(*unit);
+          uint64_t paths = 0;
+          while (!cursor.empty()) {
+            const uint32_t n = cursor.take(take, pixel.data(), sample.data());
+            ASSERT_GT(n, 0u);
+            paths += n;
+            for (uint32_t i = 0; i < n; ++i) ++seen[{pixel[i], sample[i]}];
+          }
+          ASSERT_EQ(paths, unit->paths());
+        }
+        ASSERT_EQ(seen.size(), 37u * 17 * 5) << tile << ' ' << workers << ' ' << take;
+        for (const auto& [path, times] : seen) {
+          ASSERT_EQ(times, 1);
+          ASSERT_TRUE((path.first & 0xffff) >= 3 && (path.first & 0xffff) < 40 &&
+                      path.first >> 16 >= 5 && path.first >> 16 < 22 && path.second >= 2 &&
+                      path.second < 7);
+        }
+      }
+}
+
+TEST(WorkList, SmallPicturesKeepEveryWorkerBusy) {
+  // One pixel can be shared by ranges of samples only.
+  const WorkList pixel(window(0, 1, 0, 1), 0, 1000, 0, 4);
+  EXPECT_GE(pixel.units().size(), 16u);
+  EXPECT_TRUE(pixel.shares_pixels());
+  // One worker needs no split, a large picture has tiles enough.
+  EXPECT_FALSE(WorkList(window(0, 1, 0, 1), 0, 1000, 0, 1).shares_pixels());
+  const WorkList large(window(0, 960, 0, 540), 0, 16, 0, 2);
+  EXPECT_FALSE(large.shares_pixels());
+  EXPECT_GE(large.units().size(), 32u);
+}
+
+TEST(WorkList, NothingToDoIsNoUnit) {
+  WorkList none(window(0, 9, 0, 9), 5, 5, 0, 2);
+  EXPECT_EQ(none.claim(), nullptr);
+}
+
+}  // namespace
+}  // namespace yat
