@@ -1,0 +1,149 @@
+#include "app/info.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "app/options.h"
+#include "film/film.h"
+
+namespace yat {
+
+namespace {
+
+constexpr std::array<std::string_view, kMaterialKinds> kMaterialNames = {
+#define YAT_MATERIAL(file, Type) #file,
+    YAT_MATERIALS(YAT_MATERIAL)
+#undef YAT_MATERIAL
+};
+constexpr std::array<std::string_view, uint32_t(LightKind::kCount)> kLightNames = {
+    "triangle", "sphere", "point", "distant"};
+constexpr std::array<std::string_view, uint32_t(GeometryKind::kCount)> kGeometryNames = {
+    "triangles", "triangles with vertex data", "spheres", "planes"};
+
+/// "3 trianglemesh, 1 sphere" of the shapes as written.
+std::string shape_types(const Description& description) {
+  std::map<std::string, uint64_t> counts;
+  for (const ShapeEntry& shape : description.shapes) ++counts[shape.plugin.type];
+  std::string text;
+  for (const auto& [type, count] : counts)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, type);
+  return text.empty() ? "none" : text;
+}
+
+std::string light_counts(const Scene& scene) {
+  std::array<uint64_t, uint32_t(LightKind::kCount)> counts{};
+  for (uint32_t row = 0; row < scene.lights.size(); ++row) {
+    const uint32_t kind = scene.lights.row(row).kind;
+    if (kind < counts.size()) ++counts[kind];
+  }
+  std::string text;
+  for (size_t kind = 0; kind < counts.size(); ++kind)
+    if (counts[kind])
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[kind], kLightNames[kind]);
+  return text.empty() ? "none" : text;
+}
+
+std::string holds(const Description& description, const Scene& scene) {
+  const FilmSettings& film = scene.film;
+  const CameraView& camera = scene.camera;
+  std::string text = fmt::format("Scene {} (hash {:016x})\n", description.file, scene.hash);
+  text += fmt::format("  shapes     {} ({})\n", scene.shapes_read, shape_types(description));
+  text += fmt::format(
+      "  geometry   {} triangles{}{}, {} spheres, {} planes\n", scene.triangles.size(),
+      scene.triangle_vertices.size() ? " (with normals or uv)" : "",
+      scene.degenerate_triangles ? fmt::format(" ({} without area)", scene.degenerate_triangles)
+                                 : std::string(),
+      scene.spheres.size(), scene.planes.size());
+  text += "  materials ";
+  std::string materials;
+  for (uint32_t kind = 0; kind < kMaterialKinds; ++kind)
+    if (scene.parameter_rows[kind])
+      materials += fmt::format("{} {} {}", materials.empty() ? "" : ",", scene.parameter_rows[kind],
+                               kMaterialNames[kind]);
+  text += (materials.empty() ? " none" : materials) + "\n";
+  text += fmt::format("  lights     {}\n", light_counts(scene));
+  text += fmt::format(
+      "  camera     {}, at {:.6g} {:.6g} {:.6g}, looking along {:.4f} {:.4f} {:.4f}\n",
+      scene.thin_lens ? fmt::format("thin lens, focus at {:.6g} m", camera.focal_distance)
+                      : std::string("pinhole"),
+      scene.center.x + double(camera.origin[0]), scene.center.y + double(camera.origin[1]),
+      scene.center.z + double(camera.origin[2]), camera.forward[0], camera.forward[1],
+      camera.forward[2]);
+  text +=
+      fmt::format("  film       {}x{}, crop x {}..{} y {}..{}, \"{}\", tone map {}, gamma {:.3g}\n",
+                  film.width, film.height, film.crop_x0, film.crop_x1, film.crop_y0, film.crop_y1,
+                  film.filename, tone_map_name(film.tone_map), film.gamma);
+  text +=
+      fmt::format("  filter     {}, radius {:.3g} x {:.3g} pixels\n",
+                  scene.filter.box ? "box" : "table", scene.filter.radius_x, scene.filter.radius_y);
+  text += fmt::format("  integrator {}, depth {}\n", scene.direct_only ? "direct" : "path",
+                      scene.max_depth);
+  return text;
+}
+
+std::string bins_of(const Scene& scene) {
+  std::string text = "Bins (rows that take the same way)\n";
+  for (size_t i = 1; i < scene.bins.size(); ++i) {
+    const Bin& bin = scene.bins[i];
+    text += fmt::format(
+        "  {:>2}  {}, {}{}: {} primitives\n", i, kGeometryNames[uint32_t(bin.geometry)],
+        kMaterialNames[uint32_t(bin.material)], bin.emissive ? ", emissive" : "", bin.primitives);
+  }
+  return text;
+}
+
+std::string tree_of(const Tree& tree) {
+  const TreeStatistics& s = tree.statistics;
+  if (s.triangles == 0) return "Tree\n  none: no triangles\n";
+  return fmt::format(
+      "Tree\n"
+      "  {} references to {} triangles ({:.3f} each), {} nodes, {} leaves, {} blocks of {} ({:.1f} "
+      "% full)\n"
+      "  deepest way {} nodes, SAH cost {:.2f}, built in {:.3f} s\n",
+      s.references, s.triangles, double(s.references) / double(s.triangles), s.nodes, s.leaves,
+      s.blocks, tree.view.block_width, 100 * s.block_fill, s.max_depth, s.sah_cost,
+      s.build_seconds);
+}
+
+std::string memory_of(const Scene& scene) {
+  std::string text = "Memory [bytes]\n";
+  const auto line = [&](std::string_view name, size_t bytes) {
+    if (bytes) text += fmt::format("  {:<24}{:>14}\n", name, bytes);
+  };
+  line("triangles", scene.triangles.bytes());
+  line("triangle vertices", scene.triangle_vertices.bytes());
+  line("spheres", scene.spheres.bytes());
+  line("planes", scene.planes.bytes());
+  line("bin of primitive", scene.prim_bin.bytes());
+  line("tree nodes", scene.tree.nodes.bytes());
+  line("tree blocks", scene.tree.blocks.bytes());
+  line("tree occluder masks", scene.tree.block_occluders.bytes());
+  line("lights", scene.lights.bytes());
+  line("light choice", scene.light_choice.bytes());
+  for (uint32_t kind = 0; kind < kMaterialKinds; ++kind)
+    line(fmt::format("material {}", kMaterialNames[kind]), scene.parameters[kind].bytes());
+  line("pixel filter", scene.filter_marginal.bytes() + scene.filter_conditional.bytes() +
+                           scene.filter_sign.bytes());
+  line("all of the scene", scene.bytes());
+  line("film", scene.film.crop_width() * size_t(scene.film.crop_height()) * sizeof(FilmPixel));
+  return text;
+}
+
+}  // namespace
+
+std::string info_text(const Description& description, const Scene& scene, const Plan& plan) {
+  std::string text = holds(description, scene);
+  text += bins_of(scene);
+  text += fmt::format("Plan ({}, {} lanes)\n", plan.kernels->isa, plan.kernels->lanes);
+  std::string steps = describe_plan(plan, scene);
+  if (!steps.empty() && steps.back() != '\n') steps += '\n';
+  text += steps;
+  text += tree_of(scene.tree);
+  text += memory_of(scene);
+  return text;
+}
+
+}  // namespace yat

@@ -1,0 +1,46 @@
+#include "app/machine.h"
+
+#include <sys/resource.h>
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <fstream>
+
+namespace yat {
+
+namespace {
+double seconds_of(const timeval& time) {
+  return double(time.tv_sec) + double(time.tv_usec) * 1e-6;
+}
+}  // namespace
+
+Machine this_machine() {
+  Machine machine;
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    const size_t colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) {
+      machine.cpu = line.substr(colon + 2);
+      break;
+    }
+  }
+  if (utsname name{}; machine.cpu.empty() && uname(&name) == 0) machine.cpu = name.machine;
+  machine.processors = uint32_t(std::max(0l, sysconf(_SC_NPROCESSORS_ONLN)));
+  machine.memory_bytes = uint64_t(std::max(0l, sysconf(_SC_PHYS_PAGES))) *
+                         uint64_t(std::max(0l, sysconf(_SC_PAGE_SIZE)));
+  return machine;
+}
+
+double cpu_seconds() {
+  rusage usage{};
+  if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+  return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+}
+
+uint64_t peak_memory_bytes() {
+  rusage usage{};
+  if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+  return uint64_t(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace yat

@@ -1,0 +1,22 @@
+#pragma once
+// The machine that runs this, and what this process has used of it.
+
+#include <cstdint>
+#include <string>
+
+namespace yat {
+
+struct Machine {
+  std::string cpu;            ///< model name, or the architecture where there is none
+  uint32_t processors = 0;    ///< that the system has
+  uint64_t memory_bytes = 0;  ///< of main memory
+};
+
+Machine this_machine();
+
+/// User and system time of all threads so far [s].
+double cpu_seconds();
+/// Most memory held at once so far [bytes].
+uint64_t peak_memory_bytes();
+
+}  // namespace yat

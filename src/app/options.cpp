@@ -1,0 +1,384 @@
+#include "app/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "app/build_info.h"
+#include "base/error.h"
+
+namespace yat {
+
+namespace {
+
+// Samples are keyed by 32-bit indices; this leaves room for the next pass in any sum.
+constexpr uint32_t kMostSamples = uint32_t(1) << 30;
+
+constexpr OptionText kRenderOptions[] = {
+    {"-o,--output", "FILE", "the film's filename as .png",
+     "picture to write: .png, .exr or .jpg; may be given several times"},
+    {"--spp", "N", "the scene's haltspp, or 64; no limit with --time",
+     "samples per pixel; powers of two suit the sobol sampler"},
+    {"--samples-range", "A,B", "0 to --spp",
+     "render only the samples A to B-1 of every pixel, to repeat or to split a render"},
+    {"--time", "SECONDS", "the scene's halttime, or no limit",
+     "stop rendering after this time; what comes first of this and --spp counts"},
+    {"--threads", "N", "one per processor", "worker threads; the picture does not depend on them"},
+    {"--integrator", "path|direct", "the scene's",
+     "path: all light; direct: direct light, mirrors and glass"},
+    {"--max-depth", "N", "the scene's",
+     "vertices after which a path ends; 0 sees light sources only"},
+    {"--sampler", "sobol|independent", "sobol", "where random numbers come from"},
+    {"--seed", "N", "0", "another seed gives another, independent picture"},
+    {"--resolution", "WxH", "the film's", "size of the full picture in pixels"},
+    {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
+    {"--isa", "NAME", "YAT_ISA, or the best here", "instruction set of the kernels"},
+    {"--tonemap", "NAME", "the film's",
+     "linear, reinhard, autolinear, maxwhite or contrast; for .png and .jpg"},
+    {"--exposure", "STOPS", "0", "brighten .png and .jpg by 2^STOPS before tone mapping"},
+    {"--stats", "FILE", "none", "write what was done and how long it took as JSON"},
+    {"--trace", "FILE", "none", "write the stages of each thread over time as Chrome trace events"},
+    {"--progress", "auto|bar|plain|json|none", "auto",
+     "how to report progress on stderr; auto: bar on a terminal, else plain"},
+    {"-v,--verbose", "", "off", "say more: notes, passes, memory"},
+    {"-q,--quiet", "", "off", "say only what went wrong"},
+    {"-h,--help", "", "", "print this"},
+};
+
+constexpr OptionText kInfoOptions[] = {
+    {"--threads", "N", "one per processor", "worker threads for building the tree"},
+    {"--integrator", "path|direct", "the scene's", "plan for this integrator"},
+    {"--max-depth", "N", "the scene's", "plan for this depth"},
+    {"--sampler", "sobol|independent", "sobol", "plan for this sampler"},
+    {"--resolution", "WxH", "the film's", "size of the full picture in pixels"},
+    {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
+    {"--isa", "NAME", "YAT_ISA, or the best here", "instruction set of the kernels"},
+    {"-v,--verbose", "", "off", "say more: notes"},
+    {"-q,--quiet", "", "off", "no warnings"},
+    {"-h,--help", "", "", "print this"},
+};
+
+constexpr std::array<std::pair<std::string_view, Integrator>, 2> kIntegrators = {
+    {{"path", Integrator::kPath}, {"direct", Integrator::kDirect}}};
+constexpr std::array<std::pair<std::string_view, SamplerKind>, 2> kSamplers = {
+    {{"sobol", SamplerKind::kSobol}, {"independent", SamplerKind::kIndependent}}};
+constexpr std::array<std::pair<std::string_view, ToneMap>, 5> kToneMaps = {
+    {{"linear", ToneMap::kLinear},
+     {"reinhard", ToneMap::kReinhard},
+     {"autolinear", ToneMap::kAutoLinear},
+     {"maxwhite", ToneMap::kMaxWhite},
+     {"contrast", ToneMap::kContrast}}};
+constexpr std::array<std::pair<std::string_view, ProgressKind>, 5> kProgressKinds = {
+    {{"auto", ProgressKind::kAuto},
+     {"bar", ProgressKind::kBar},
+     {"plain", ProgressKind::kPlain},
+     {"json", ProgressKind::kJson},
+     {"none", ProgressKind::kSilent}}};
+
+/// The value called `name`, or a UsageError that lists the names.
+template <class T, size_t N>
+T by_name(std::string_view option, std::string_view name,
+          const std::array<std::pair<std::string_view, T>, N>& names) {
+  std::vector<std::string_view> all;
+  for (const auto& [known, value] : names) {
+    if (known == name) return value;
+    all.push_back(known);
+  }
+  throw UsageError(fmt::format("{} {}: unknown{}; choose from {}", option, name,
+                               did_you_mean(name, all), fmt::join(all, ", ")));
+}
+
+template <class T, size_t N>
+std::string_view name_of(T wanted, const std::array<std::pair<std::string_view, T>, N>& names) {
+  for (const auto& [name, value] : names)
+    if (value == wanted) return name;
+  return "unknown";
+}
+
+/// The whole of `text` as a number in [least, most].
+template <class T>
+T number(std::string_view option, std::string_view text, std::string_view part, T least, T most) {
+  T value{};
+  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+  if (part.empty() || error != std::errc() || end != part.data() + part.size())
+    throw UsageError(
+        fmt::format("{} {}: \"{}\" is not a number that fits here", option, text, part));
+  if (!(value >= least && value <= most))
+    throw UsageError(
+        fmt::format("{} {}: {} is not within {} to {}", option, text, value, least, most));
+  return value;
+}
+
+/// Exactly N numbers between separators.
+template <class T, size_t N>
+std::array<T, N> numbers(std::string_view option, std::string_view text, char separator, T least,
+                         T most, std::string_view form) {
+  std::array<T, N> values{};
+  std::string_view rest = text;
+  for (size_t i = 0; i < N; ++i) {
+    const size_t end = rest.find(separator);
+    if ((end == std::string_view::npos) != (i + 1 == N))
+      throw UsageError(fmt::format("{} {}: write it as {}", option, text, form));
+    values[i] = number<T>(option, text, rest.substr(0, end), least, most);
+    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+  }
+  return values;
+}
+
+/// Text of every option as given; read into Arguments once all are known.
+struct Given {
+  std::string spp, samples_range, time, threads, integrator, max_depth, sampler, seed, resolution,
+      crop, tone_map, exposure, progress;
+  bool verbose = false, quiet = false;
+};
+
+const OptionText& text_of(std::span<const OptionText> options, std::string_view name) {
+  for (const OptionText& option : options)
+    if (option.flags.ends_with(name)) return option;
+  throw std::logic_error(fmt::format("option {} is not in the table", name));
+}
+
+/// Adds options by their entry in the table.
+class Adder {
+ public:
+  Adder(CLI::App& app, std::span<const OptionText> options) : app_(app), options_(options) {}
+  template <class T>
+  void operator()(std::string_view name, T& value) {
+    const std::string flags(text_of(options_, name).flags);
+    if constexpr (std::is_same_v<T, bool>)
+      app_.add_flag(flags, value);
+    else
+      app_.add_option(flags, value)
+          ->allow_extra_args(false)
+          ->multi_option_policy(std::is_same_v<T, std::string> ? CLI::MultiOptionPolicy::Throw
+                                                               : CLI::MultiOptionPolicy::TakeAll);
+  }
+
+ private:
+  CLI::App& app_;
+  std::span<const OptionText> options_;
+};
+
+void add_shared(Adder& add, Arguments& arguments, Given& given) {
+  add("--threads", given.threads);
+  add("--integrator", given.integrator);
+  add("--max-depth", given.max_depth);
+  add("--sampler", given.sampler);
+  add("--resolution", given.resolution);
+  add("--crop", given.crop);
+  add("--isa", arguments.isa);
+  add("--verbose", given.verbose);
+  add("--quiet", given.quiet);
+}
+
+void add_render(Adder& add, Arguments& arguments, Given& given) {
+  add_shared(add, arguments, given);
+  add("--output", arguments.outputs);
+  add("--spp", given.spp);
+  add("--samples-range", given.samples_range);
+  add("--time", given.time);
+  add("--seed", given.seed);
+  add("--tonemap", given.tone_map);
+  add("--exposure", given.exposure);
+  add("--stats", arguments.stats_file);
+  add("--trace", arguments.trace_file);
+  add("--progress", given.progress);
+}
+
+void read_given(const Given& given, Arguments& to) {
+  if (!given.spp.empty())
+    to.samples_per_pixel = number<uint32_t>("--spp", given.spp, given.spp, 1, kMostSamples);
+  if (!given.samples_range.empty()) {
+    const auto [first, end] =
+        numbers<uint32_t, 2>("--samples-range", given.samples_range, ',', 0, kMostSamples,
+                             "A,B, the first and one past the last");
+    if (first >= end)
+      throw UsageError(
+          fmt::format("--samples-range {}: no sample between them; A must be less than B",
+                      given.samples_range));
+    if (to.samples_per_pixel || !given.time.empty())
+      throw UsageError("--samples-range says which samples to take: leave out --spp and --time");
+    to.samples_range = SampleRange{first, end};
+  }
+  if (!given.time.empty()) {
+    to.time_limit = number<double>("--time", given.time, given.time, 0, 1e9);
+    if (*to.time_limit == 0) throw UsageError("--time 0: no time to render; give seconds above 0");
+  }
+  if (!given.threads.empty())
+    to.threads = number<uint32_t>("--threads", given.threads, given.threads, 1, 4096);
+  if (!given.integrator.empty())
+    to.integrator = by_name("--integrator", given.integrator, kIntegrators);
+  if (!given.max_depth.empty())
+    to.max_depth = number<uint32_t>("--max-depth", given.max_depth, given.max_depth, 0, 65535);
+  if (!given.sampler.empty()) to.sampler = by_name("--sampler", given.sampler, kSamplers);
+  if (!given.seed.empty())
+    to.seed =
+        number<uint32_t>("--seed", given.seed, given.seed, 0, std::numeric_limits<uint32_t>::max());
+  if (!given.resolution.empty()) {
+    const auto size =
+        numbers<uint32_t, 2>("--resolution", given.resolution, 'x', 1, 65535, "WxH, like 800x600");
+    to.width = size[0];
+    to.height = size[1];
+  }
+  if (!given.crop.empty()) {
+    const auto crop = numbers<float, 4>("--crop", given.crop, ',', 0.f, 1.f,
+                                        "x0,x1,y0,y1, like 0,0.5,0,1 for the left half");
+    if (!(crop[0] < crop[1] && crop[2] < crop[3]))
+      throw UsageError(
+          fmt::format("--crop {}: empty; x0 must be below x1 and y0 below y1", given.crop));
+    to.crop = crop;
+  }
+  if (!given.tone_map.empty()) to.tone_map = by_name("--tonemap", given.tone_map, kToneMaps);
+  if (!given.exposure.empty())
+    to.exposure_stops = number<float>("--exposure", given.exposure, given.exposure, -100.f, 100.f);
+  if (!given.progress.empty()) to.progress = by_name("--progress", given.progress, kProgressKinds);
+  if (given.verbose && given.quiet) throw UsageError("-v and -q exclude each other");
+  to.verbosity = given.quiet     ? Verbosity::kQuiet
+                 : given.verbose ? Verbosity::kVerbose
+                                 : Verbosity::kNormal;
+}
+
+/// Flags as written in help and documents: "-o, --output FILE".
+std::string shown_flags(const OptionText& option) {
+  const size_t comma = option.flags.find(',');
+  std::string flags =
+      comma == std::string_view::npos
+          ? std::string(option.flags)
+          : fmt::format("{}, {}", option.flags.substr(0, comma), option.flags.substr(comma + 1));
+  if (!option.value.empty()) flags += fmt::format(" {}", option.value);
+  return flags;
+}
+
+std::string help_of(std::string_view usage, std::string_view text,
+                    std::span<const OptionText> options) {
+  std::string help = fmt::format("Usage: {}\n{}\n\nOptions:\n", usage, text);
+  for (const OptionText& option : options) {
+    help += fmt::format("  {}\n      {}\n", shown_flags(option), option.text);
+    if (!option.fallback.empty()) help += fmt::format("      default: {}\n", option.fallback);
+  }
+  return help;
+}
+
+std::string general_help() {
+  return "Usage: yat render SCENE [OPTION...]   render a LuxRender scene (.lxs) to pictures\n"
+         "       yat info SCENE [OPTION...]     say what the scene holds and how it would be "
+         "rendered\n"
+         "       yat --version\n"
+         "\n"
+         "`yat render --help` and `yat info --help` list the options with their defaults.\n"
+         "Exit codes: 0 done, 1 bad scene or input, 2 bad usage, 3 out of memory, disk or the "
+         "like,\n"
+         "130 interrupted (the picture so far is written).\n";
+}
+
+std::string help_for(const CLI::App* render, const CLI::App* info) {
+  if (render->parsed())
+    return help_of("yat render SCENE [OPTION...]", "Renders a LuxRender scene (.lxs) to pictures.",
+                   kRenderOptions);
+  if (info->parsed())
+    return help_of(
+        "yat info SCENE [OPTION...]",
+        "Says what the scene holds, which stages and kernels would run, what the tree is "
+        "like, and memory.",
+        kInfoOptions);
+  return general_help();
+}
+
+/// " (did you mean --spp?)" for the first argument that looks like an option and is none.
+std::string option_suggestion(int argc, const char* const* argv,
+                              std::span<const OptionText> options) {
+  std::vector<std::string_view> names;
+  for (const OptionText& option : options) {
+    const size_t comma = option.flags.find(',');
+    names.push_back(option.flags.substr(comma == std::string_view::npos ? 0 : comma + 1));
+  }
+  for (int i = 2; i < argc; ++i) {
+    std::string_view argument = argv[i];
+    argument = argument.substr(0, argument.find('='));
+    if (!argument.starts_with("--") ||
+        std::find(names.begin(), names.end(), argument) != names.end())
+      continue;
+    return did_you_mean(argument, names);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::span<const OptionText> render_option_texts() {
+  return kRenderOptions;
+}
+std::span<const OptionText> info_option_texts() {
+  return kInfoOptions;
+}
+
+std::string option_table(std::span<const OptionText> options) {
+  std::string table = "| option | default | what it does |\n|---|---|---|\n";
+  for (const OptionText& option : options) {
+    // A bar inside a table cell must be escaped, in code too.
+    std::string flags;
+    for (const char letter : shown_flags(option)) {
+      if (letter == '|') flags += '\\';
+      flags += letter;
+    }
+    table += fmt::format("| `{}` | {} | {} |\n", flags, option.fallback, option.text);
+  }
+  return table;
+}
+
+std::string_view integrator_name(Integrator integrator) {
+  return name_of(integrator, kIntegrators);
+}
+std::string_view sampler_name(SamplerKind sampler) {
+  return name_of(sampler, kSamplers);
+}
+std::string_view tone_map_name(ToneMap tone_map) {
+  return name_of(tone_map, kToneMaps);
+}
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+  CommandLine line;
+  Given given;
+  CLI::App app("yat");
+  app.set_help_flag("-h,--help");
+  app.set_version_flag("--version", std::string(kBuildInfo.version));
+  app.require_subcommand(1);
+  CLI::App* render = app.add_subcommand("render");
+  CLI::App* info = app.add_subcommand("info");
+  for (CLI::App* command : {render, info}) {
+    command->set_help_flag("-h,--help");
+    command->add_option("SCENE", line.arguments.scene)->required();
+  }
+  Adder add_to_render(*render, kRenderOptions), add_to_info(*info, kInfoOptions);
+  add_render(add_to_render, line.arguments, given);
+  add_shared(add_to_info, line.arguments, given);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    line.text = help_for(render, info);
+    return line;
+  } catch (const CLI::CallForVersion&) {
+    line.text = fmt::format("yat {} ({})\n", kBuildInfo.version, kBuildInfo.commit);
+    return line;
+  } catch (const CLI::ParseError& error) {
+    if (argc < 2)
+      throw UsageError(
+          "nothing to do: say `yat render SCENE` or `yat info SCENE` (yat --help says more)");
+    const auto options = info->parsed() ? info_option_texts() : render_option_texts();
+    throw UsageError(fmt::format("{}{}; yat {}--help lists what there is", error.what(),
+                                 option_suggestion(argc, argv, options),
+                                 render->parsed() ? "render "
+                                 : info->parsed() ? "info "
+                                                  : ""));
+  }
+  read_given(given, line.arguments);
+  line.command = render->parsed() ? Command::kRender : Command::kInfo;
+  return line;
+}
+
+}  // namespace yat

@@ -1,0 +1,77 @@
+#pragma once
+// The command line: one table of options, from which the parser, --help and the documentation's
+// tables are made, and the values it was read into.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "film/settings.h"
+#include "wavefront/plan.h"
+
+namespace yat {
+
+/// One option as people see it.
+struct OptionText {
+  std::string_view flags;     ///< "-o,--output"
+  std::string_view value;     ///< "FILE"; empty for a flag
+  std::string_view fallback;  ///< what holds without it
+  std::string_view text;      ///< what it does, one sentence
+};
+
+std::span<const OptionText> render_option_texts();
+std::span<const OptionText> info_option_texts();
+
+/// The options as rows of a Markdown table, one line each: what docs and README must hold.
+std::string option_table(std::span<const OptionText> options);
+
+enum class ProgressKind { kAuto, kBar, kPlain, kJson, kSilent };
+enum class Verbosity { kQuiet, kNormal, kVerbose };
+
+/// Half-open range of sample indices of every pixel.
+struct SampleRange {
+  uint32_t first = 0, end = 0;
+};
+
+/// What was asked for. An empty optional: as the scene says.
+struct Arguments {
+  std::string scene;
+  std::vector<std::string> outputs;
+  std::optional<uint32_t> samples_per_pixel;
+  std::optional<SampleRange> samples_range;
+  std::optional<double> time_limit;  ///< of rendering [s]
+  uint32_t threads = 0;              ///< 0: one per processor
+  std::optional<Integrator> integrator;
+  std::optional<uint32_t> max_depth;
+  SamplerKind sampler = SamplerKind::kSobol;
+  uint32_t seed = 0;
+  uint32_t width = 0, height = 0;            ///< 0: as the film says [pixels]
+  std::optional<std::array<float, 4>> crop;  ///< fractions x0 x1 y0 y1
+  std::string isa;
+  std::optional<ToneMap> tone_map;
+  float exposure_stops = 0;
+  std::string stats_file, trace_file;
+  ProgressKind progress = ProgressKind::kAuto;
+  Verbosity verbosity = Verbosity::kNormal;
+};
+
+enum class Command { kRender, kInfo, kHelp };
+
+struct CommandLine {
+  Command command = Command::kHelp;
+  Arguments arguments;
+  std::string text;  ///< kHelp: what --help or --version prints
+};
+
+/// Reads the command line. Throws UsageError with a message that names the option.
+CommandLine parse_command_line(int argc, const char* const* argv);
+
+/// Names as on the command line.
+std::string_view integrator_name(Integrator integrator);
+std::string_view sampler_name(SamplerKind sampler);
+std::string_view tone_map_name(ToneMap tone_map);
+
+}  // namespace yat

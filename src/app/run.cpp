@@ -1,0 +1,241 @@
+#include "app/run.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <new>
+
+#include "app/build_info.h"
+#include "app/console.h"
+#include "app/info.h"
+#include "app/interrupt.h"
+#include "app/passes.h"
+#include "app/report.h"
+#include "app/text_file.h"
+#include "film/output.h"
+#include "kernels/dispatch.h"
+#include "scene/parse.h"
+#include "wavefront/plan.h"
+
+namespace yat {
+
+namespace {
+
+class Stopwatch {
+ public:
+  /// Seconds since the last call, or since the beginning.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+Diagnostics::Sink sink_for(Console& console, Verbosity verbosity) {
+  return [&console, verbosity](Severity severity, std::string_view line) {
+    const bool wanted = severity == Severity::kError ||
+                        (severity == Severity::kWarning && verbosity != Verbosity::kQuiet) ||
+                        verbosity == Verbosity::kVerbose;
+    if (wanted) console.line(line);
+  };
+}
+
+/// A scene made ready to render, with what it was made from.
+struct Loaded {
+  Description description;
+  Scene scene;
+  Plan plan;
+  Integrator integrator = Integrator::kPath;
+  PhaseTimes time;
+};
+
+/// The description in `loaded` as columns and plan, with what the command line says otherwise.
+void compile(const Arguments& arguments, const KernelTable& kernels, ThreadPool& pool,
+             Diagnostics& diagnostics, Loaded& loaded) {
+  CompileOptions options;
+  options.block_width = kernels.lanes;
+  options.width = arguments.width;
+  options.height = arguments.height;
+  if (arguments.crop) {
+    for (size_t i = 0; i < 4; ++i) options.crop[i] = (*arguments.crop)[i];
+    options.crop_given = true;
+  }
+  loaded.scene = compile_scene(loaded.description, options, pool, diagnostics);
+  if (arguments.tone_map) loaded.scene.film.tone_map = *arguments.tone_map;
+  loaded.scene.film.exposure_stops = arguments.exposure_stops;
+
+  PlanOptions plan;
+  loaded.integrator = arguments.integrator.value_or(loaded.scene.direct_only ? Integrator::kDirect
+                                                                             : Integrator::kPath);
+  plan.integrator = loaded.integrator;
+  plan.sampler = arguments.sampler;
+  plan.max_depth = arguments.max_depth.value_or(uint32_t(std::max(0, loaded.scene.max_depth)));
+  plan.seed = arguments.seed;
+  loaded.plan = make_plan(loaded.scene, kernels, plan);
+}
+
+void load(const Arguments& arguments, const KernelTable& kernels, ThreadPool& pool,
+          Diagnostics& diagnostics, Loaded& loaded) {
+  Stopwatch watch;
+  loaded.description = read_scene(arguments.scene, diagnostics);
+  loaded.time.read = watch.lap();
+  compile(arguments, kernels, pool, diagnostics, loaded);
+  loaded.time.build = watch.lap();
+}
+
+/// Checks before the work what would only fail after it.
+void check_outputs(const std::vector<std::string>& outputs) {
+  for (const std::string& output : outputs)
+    if (!is_picture_name(output))
+      throw UsageError(
+          fmt::format("-o {}: unknown kind of picture; choose .png, .exr or .jpg", output));
+}
+
+void tell_end(Console& console, const RenderReport& report, const Diagnostics& diagnostics,
+              Verbosity verbosity) {
+  if (report.interrupted) {
+    console.line(fmt::format(
+        "interrupted: the picture holds {:.6g} samples per pixel ({} samples in {} pixels)",
+        report.samples_per_pixel(), report.samples, report.pixels()));
+  }
+  if (verbosity == Verbosity::kQuiet) return;
+  if (report.totals.timed_out)
+    console.line(fmt::format("time is up: the picture holds {:.6g} samples per pixel",
+                             report.samples_per_pixel()));
+  console.line(summary_text(report, verbosity));
+  if (diagnostics.error_count())
+    console.line(fmt::format("warning: {} error{} above: parts of the scene are not in the picture",
+                             diagnostics.error_count(), diagnostics.error_count() == 1 ? "" : "s"));
+  for (const std::string& output : report.outputs) console.line(fmt::format("wrote {}", output));
+}
+
+RenderReport report_of(const Arguments& arguments, const Loaded& loaded, const ThreadPool& pool) {
+  RenderReport report;
+  report.scene = arguments.scene;
+  report.scene_hash = loaded.scene.hash;
+  report.film = loaded.scene.film;
+  report.integrator = loaded.integrator;
+  report.sampler = loaded.plan.sampler;
+  report.transport = loaded.plan.transport;
+  report.isa = loaded.plan.kernels->isa;
+  report.lanes = loaded.plan.kernels->lanes;
+  report.threads = pool.threads();
+  report.time = loaded.time;
+  report.scene_bytes = loaded.scene.bytes();
+  return report;
+}
+
+void write_pictures(const RenderReport& report, const Film& film) {
+  PictureMetadata metadata;
+  metadata.scene = report.scene;
+  metadata.scene_hash = report.scene_hash;
+  metadata.seed = report.transport.seed;
+  metadata.samples_per_pixel = report.samples_per_pixel();
+  metadata.render_seconds = report.time.render;
+  metadata.isa = report.isa;
+  metadata.version = kBuildInfo.version;
+  const std::vector<float> rgb = film.resolve();
+  for (const std::string& output : report.outputs)
+    write_picture(output, rgb, film.width(), film.height(), report.film, metadata);
+}
+
+ExitCode render_command(const Arguments& arguments, Console& console) {
+  check_outputs(arguments.outputs);
+  const KernelTable& kernels = select_kernels(arguments.isa);
+  ThreadPool pool(arguments.threads);
+  Diagnostics diagnostics(sink_for(console, arguments.verbosity));
+  Loaded loaded;
+  load(arguments, kernels, pool, diagnostics, loaded);
+  diagnostics.flush_repeats();
+
+  RenderReport report = report_of(arguments, loaded, pool);
+  report.outputs = arguments.outputs;
+  if (report.outputs.empty()) report.outputs.push_back(report.film.filename + ".png");
+  for (const std::string& output : report.outputs) require_writable(output);
+  for (const std::string& file : {arguments.stats_file, arguments.trace_file})
+    if (!file.empty()) require_writable(file);
+
+  Film film(report.film.crop_width(), report.film.crop_height());
+  report.film_bytes = film.bytes();
+  {
+    InterruptGuard guard;
+    // Errors and the end of an interrupted render are all that -q lets through.
+    const ProgressKind kind =
+        arguments.verbosity == Verbosity::kQuiet && arguments.progress == ProgressKind::kAuto
+            ? ProgressKind::kSilent
+            : arguments.progress;
+    Progress progress(console, kind);
+    report.totals =
+        render_passes(loaded.scene, loaded.plan, pass_limits(arguments, report.film),
+                      !arguments.trace_file.empty(), pool, film, progress, guard.stop());
+    report.interrupted = guard.interrupted();
+    report.time.render = report.totals.seconds;
+    report.samples = film.total_samples();
+    if (report.samples == 0) {
+      console.line("interrupted before the first sample: no picture written");
+      return ExitCode::kInterrupted;
+    }
+    // Still guarded: a second Ctrl-C ends a slow write.
+    Stopwatch watch;
+    write_pictures(report, film);
+    report.time.write = watch.lap();
+  }
+  tell_end(console, report, diagnostics, arguments.verbosity);
+  if (!arguments.stats_file.empty()) write_text_file(arguments.stats_file, stats_json(report));
+  if (!arguments.trace_file.empty()) write_text_file(arguments.trace_file, trace_json(report));
+  return report.interrupted ? ExitCode::kInterrupted : ExitCode::kDone;
+}
+
+ExitCode info_command(const Arguments& arguments, Console& console) {
+  const KernelTable& kernels = select_kernels(arguments.isa);
+  ThreadPool pool(arguments.threads);
+  Diagnostics diagnostics(sink_for(console, arguments.verbosity));
+  Loaded loaded;
+  load(arguments, kernels, pool, diagnostics, loaded);
+  diagnostics.flush_repeats();
+  std::fputs(info_text(loaded.description, loaded.scene, loaded.plan).c_str(), stdout);
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+ExitCode run(int argc, const char* const* argv) {
+  Console console;
+  try {
+    const CommandLine line = parse_command_line(argc, argv);
+    switch (line.command) {
+      case Command::kHelp:
+        std::fputs(line.text.c_str(), stdout);
+        return ExitCode::kDone;
+      case Command::kInfo:
+        return info_command(line.arguments, console);
+      case Command::kRender:
+        return render_command(line.arguments, console);
+    }
+  } catch (const UsageError& error) {
+    console.line(fmt::format("yat: {}", error.what()));
+    return ExitCode::kBadUsage;
+  } catch (const Error& error) {
+    console.line(error.what());
+    return ExitCode::kBadScene;
+  } catch (const ResourceError& error) {
+    console.line(error.what());
+    return ExitCode::kResources;
+  } catch (const std::bad_alloc&) {
+    console.line("error: out of memory");
+    return ExitCode::kResources;
+  } catch (const std::exception& error) {
+    // Nothing else should come here; if it does, it is named and the exit code is not 0.
+    console.line(fmt::format("error: {}", error.what()));
+    return ExitCode::kResources;
+  }
+  return ExitCode::kDone;
+}
+
+}  // namespace yat

@@ -1,0 +1,102 @@
+// The record of --stats.
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/build_info.h"
+#include "app/machine.h"
+#include "app/report.h"
+
+namespace yat {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json lanes_of(const RenderStats& stats) {
+  Json lanes = Json::object();
+  for (uint32_t i = 0; i < kStages; ++i) {
+    const StageCount& stage = stats.stages[i];
+    if (stage.lanes_total)
+      lanes[std::string(stage_name(Stage(i)))] =
+          double(stage.lanes_active) / double(stage.lanes_total);
+  }
+  return lanes;
+}
+
+Json stages_of(const RenderStats& stats) {
+  Json stages = Json::object();
+  for (uint32_t i = 0; i < kStages; ++i) {
+    const StageCount& stage = stats.stages[i];
+    if (stage.calls == 0 && stage.nanoseconds == 0) continue;
+    stages[std::string(stage_name(Stage(i)))] = {
+        {"time", double(stage.nanoseconds) * 1e-9}, {"items", stage.rows}, {"calls", stage.calls}};
+  }
+  return stages;
+}
+
+Json dropped_of(const RenderReport& report) {
+  Json dropped = Json::object();
+  for (uint32_t cause = 0; cause < kDropCauses; ++cause)
+    dropped[std::string(drop_cause_name(DropCause(cause)))] = report.totals.drops.count[cause];
+  dropped["replay"] = replay_commands(report);
+  return dropped;
+}
+
+}  // namespace
+
+std::string stats_json(const RenderReport& report) {
+  const Machine machine = this_machine();
+  const RenderStats& stats = report.totals.stats;
+  Json record;
+  record["scene"] = report.scene;
+  record["scene_hash"] = fmt::format("{:016x}", report.scene_hash);
+  record["version"] = kBuildInfo.version;
+  record["commit"] = kBuildInfo.commit;
+  record["build"] = {{"compiler", kBuildInfo.compiler},
+                     {"type", kBuildInfo.build_type},
+                     {"flags", kBuildInfo.flags},
+                     {"isa", report.isa},
+                     {"lanes", report.lanes}};
+  record["machine"] = {{"cpu", machine.cpu},
+                       {"cores", machine.processors},
+                       {"threads", report.threads},
+                       {"memory", machine.memory_bytes}};
+  record["seed"] = report.transport.seed;
+  record["spp"] = report.samples_per_pixel();
+  record["resolution"] = {report.film.width, report.film.height};
+  record["settings"] = {
+      {"crop",
+       {report.film.crop_x0, report.film.crop_x1, report.film.crop_y0, report.film.crop_y1}},
+      {"integrator", integrator_name(report.integrator)},
+      {"max_depth", report.transport.max_depth},
+      {"sampler", sampler_name(report.sampler)},
+      {"tonemap", tone_map_name(report.film.tone_map)},
+      {"exposure", report.film.exposure_stops},
+      {"outputs", report.outputs}};
+  record["time"] = {{"read", report.time.read},
+                    {"build", report.time.build},
+                    {"render", report.time.render},
+                    {"write", report.time.write},
+                    {"first_pixel", report.time.read + report.time.build}};
+  record["cpu_time"] = cpu_seconds();
+  record["peak_rss"] = peak_memory_bytes();
+  record["memory"] = {{"scene", report.scene_bytes},
+                      {"film", report.film_bytes},
+                      {"work", report.totals.scratch_bytes}};
+  record["samples"] = report.samples;
+  record["paths"] = stats.paths;
+  record["passes"] = report.totals.passes;
+  record["interrupted"] = report.interrupted;
+  record["timed_out"] = report.totals.timed_out;
+  record["rays"] = {
+      {"camera", stats.camera_rays}, {"bounce", stats.bounce_rays}, {"shadow", stats.shadow_rays}};
+  record["lanes"] = lanes_of(stats);
+  record["stages"] = stages_of(stats);
+  record["dropped"] = dropped_of(report);
+  // A file name need not be UTF-8; JSON must be.
+  return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace yat
