@@ -12,7 +12,7 @@
 // the order of slots, so that nearly every register holds rays of one kz.
 
 #include "kernels/table.h"
-#include "soa/simd_transpose.h"
+#include "soa/simd.h"
 
 namespace yat::YAT_ISA {
 

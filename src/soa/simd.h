@@ -125,7 +125,9 @@ YAT_INLINE xsimd::batch<T, A> gather_word(const T* p, const UInt<A>& index) {
 
 }  // namespace yat::YAT_ISA
 
+#include "soa/simd_bits.h"
 #include "soa/simd_rows.h"
+#include "soa/simd_transpose.h"
 
 namespace yat::YAT_ISA {
 
