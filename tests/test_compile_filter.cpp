@@ -19,9 +19,19 @@ class CompileFilter : public SceneTest {
 };
 
 /// Expected value of weight * f(x, y) over samples drawn from the tables, as the kernels draw them:
-/// uniform within a cell. f is taken at 4 x 4 midpoints.
+/// uniform within a cell (at 4 x 4 midpoints) or between quantiles (at the middle).
 double expect(const FilterTables& t, const std::function<double(double, double)>& f) {
   double sum = 0;
+  if (t.kind == FilterKind::kProduct) {
+    const auto middle = [](const std::vector<float>& q, uint32_t k) {
+      return (double(q[k]) + double(q[k + 1])) / 2;
+    };
+    for (uint32_t j = 0; j < kFilterQuantiles; ++j)
+      for (uint32_t i = 0; i < kFilterQuantiles; ++i)
+        sum += f(middle(t.quantile_x, i) * double(t.radius_x),
+                 middle(t.quantile_y, j) * double(t.radius_y));
+    return sum / (double(kFilterQuantiles) * kFilterQuantiles);
+  }
   for (uint32_t j = 0; j < kN; ++j) {
     const double row = double(t.marginal[j + 1]) - double(t.marginal[j]);
     for (uint32_t i = 0; i < kN; ++i) {
@@ -50,9 +60,18 @@ TEST_F(CompileFilter, AllIntegrateToOneAndAreCentred) {
        {"triangle", "gaussian", "mitchell", "sinc", "blackmanharris", "catmullrom"}) {
     const FilterTables t = make(type);
     SCOPED_TRACE(type);
-    ASSERT_FALSE(t.box);
-    check_cdf(t.marginal.data());
-    for (uint32_t j = 0; j < kN; ++j) check_cdf(&t.conditional[j * (kN + 1)]);
+    ASSERT_NE(t.kind, FilterKind::kBox);
+    if (t.kind == FilterKind::kProduct) {
+      for (const std::vector<float>* q : {&t.quantile_x, &t.quantile_y}) {
+        ASSERT_EQ(q->size(), kFilterQuantiles + 1);
+        EXPECT_EQ(q->back(), 1);
+        for (uint32_t k = 0; k < kFilterQuantiles; ++k) ASSERT_LT((*q)[k], (*q)[k + 1]);
+        EXPECT_NEAR(q->front(), -1, .001);
+      }
+    } else {
+      check_cdf(t.marginal.data());
+      for (uint32_t j = 0; j < kN; ++j) check_cdf(&t.conditional[j * (kN + 1)]);
+    }
     EXPECT_NEAR(expect(t, [](double, double) { return 1.; }), 1, 1e-5);
     EXPECT_NEAR(expect(t, [](double x, double) { return x; }), 0, 1e-5);
     EXPECT_NEAR(expect(t, [](double, double y) { return y; }), 0, 1e-5);
@@ -108,7 +127,7 @@ TEST_F(CompileFilter, SignsAndSupports) {
   const FilterTables bh = make("blackmanharris", {number("xwidth", 2), number("ywidth", 3)});
   EXPECT_EQ(bh.radius_x, 1) << "support is xwidth / 2 on each side";
   EXPECT_EQ(bh.radius_y, 1.5f);
-  for (float s : bh.sign) EXPECT_EQ(s, 1) << "nowhere negative";
+  EXPECT_EQ(bh.kind, FilterKind::kProduct) << "nowhere negative";
   const FilterTables m = make("mitchell");
   EXPECT_EQ(m.radius_x, 2);
   const float inside = m.sign[(kN / 2) * kN + kN / 2];
@@ -125,7 +144,7 @@ TEST_F(CompileFilter, SignsAndSupports) {
 
 TEST_F(CompileFilter, BoxNeedsNoTable) {
   const FilterTables t = make("box", {number("xwidth", 1)});
-  EXPECT_TRUE(t.box);
+  EXPECT_EQ(t.kind, FilterKind::kBox);
   EXPECT_EQ(t.radius_x, 1);
   EXPECT_EQ(t.radius_y, .5f);
   EXPECT_TRUE(t.marginal.empty());
@@ -141,12 +160,13 @@ TEST_F(CompileFilter, Trouble) {
   EXPECT_SAID(
       "scene.lxs:11:2: warning: \"xwidth\" of filter \"gaussian\" is 0, but must be above 0: 2 is "
       "used");
-  EXPECT_TRUE(make("gaussian", {number("alpha", 0)}).box);
+  EXPECT_TRUE(make("gaussian", {number("alpha", 0)}).kind == FilterKind::kBox);
   EXPECT_SAID(
       "scene.lxs:10:1: warning: filter \"gaussian\" does not integrate to anything positive: a box "
       "of "
       "its size is used");
-  EXPECT_FALSE(compile_filter(std::nullopt, diagnostics).box) << "mitchell by default";
+  EXPECT_TRUE(compile_filter(std::nullopt, diagnostics).kind == FilterKind::kTable)
+      << "mitchell by default";
 }
 
 }  // namespace

@@ -207,7 +207,7 @@ TEST_P(Camera, FilterTablesAreSampledExactly) {
   const KernelTable& k = kernels();
   SceneView scene{};
   scene.camera = test_camera();
-  scene.filter.box = false;
+  scene.filter.kind = FilterKind::kTable;
   scene.filter.radius_x = 2;
   scene.filter.radius_y = 1;
   constexpr uint32_t B = kFilterBins;
@@ -277,6 +277,56 @@ TEST_P(Camera, FilterTablesAreSampledExactly) {
       EXPECT_LE(seen[y * B + x], 3);
       seen[y * B + x] = 0;
     }
+  EXPECT_GE(chi2_p_value(seen, wanted), .01);
+}
+
+// A product filter: offsets are distributed as its quantiles say.
+TEST_P(Camera, FilterQuantilesAreSampledExactly) {
+  const KernelTable& k = kernels();
+  SceneView scene{};
+  scene.camera = test_camera();
+  scene.filter.kind = FilterKind::kProduct;
+  scene.filter.radius_x = 2;
+  scene.filter.radius_y = 1;
+  AlignedArray<float> qx(kFilterQuantiles + 1), qy(kFilterQuantiles + 1);
+  // Density 1 + x/2 over [-1, 1] in x, triangle in y.
+  for (uint32_t i = 0; i <= kFilterQuantiles; ++i) {
+    const double p = double(i) / kFilterQuantiles;
+    qx[i] = float(-2 + std::sqrt(1 + 8 * p));
+    qy[i] = float(p < .5 ? -1 + std::sqrt(2 * p) : 1 - std::sqrt(2 * (1 - p)));
+  }
+  scene.filter.quantile_x = qx.data();
+  scene.filter.quantile_y = qy.data();
+  constexpr uint32_t n = 1 << 18, B = 32;
+  Table<CameraSample> samples(n);
+  AlignedArray<float> u(n), v(n);
+  for (uint32_t i = 0; i < n; ++i) {
+    samples.set(i, {50 << 16 | 100, i, 0});
+    std::tie(u[i], v[i]) = random_pair(SamplerKind::kIndependent, 11, Dimension::kFilm, 0, i, 0);
+  }
+  Table<Ray> rays(n);
+  Table<PathState> paths(n);
+  k.generate_camera_rays[0](scene, samples.view(), u.data(), v.data(), nullptr, nullptr,
+                            rays.columns(), paths.columns(), n);
+  std::vector<double> seen(B * B), wanted(B * B);
+  const auto below_x = [](double t) { return (t + 1) / 2 + (t * t - 1) / 8 * 1.0; };
+  const auto below_y = [](double t) {
+    return t < 0 ? (1 + t) * (1 + t) / 2 : 1 - (1 - t) * (1 - t) / 2;
+  };
+  for (uint32_t y = 0; y < B; ++y)
+    for (uint32_t x = 0; x < B; ++x) {
+      const double x0 = 2. * x / B - 1, x1 = 2. * (x + 1) / B - 1;
+      const double y0 = 2. * y / B - 1, y1 = 2. * (y + 1) / B - 1;
+      wanted[y * B + x] = n * (below_x(x1) - below_x(x0)) * (below_y(y1) - below_y(y0));
+    }
+  for (uint32_t i = 0; i < n; ++i) {
+    const Ray<Value> r = rays.row(i);
+    const double x = ((double(r.dir_x / r.dir_y) + 1) / .01 - 100.5) / 2;
+    const double y = (.5 - double(r.dir_z / r.dir_y)) / .01 - 50.5;
+    const auto cell = [](double t) { return uint32_t(std::clamp((t + 1) / 2 * B, 0., B - 1.)); };
+    ++seen[cell(y) * B + cell(x)];
+    EXPECT_EQ(paths.row(i).throughput_r, 1.f);
+  }
   EXPECT_GE(chi2_p_value(seen, wanted), .01);
 }
 

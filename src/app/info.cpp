@@ -23,6 +23,18 @@ constexpr std::array<std::string_view, uint32_t(LightKind::kCount)> kLightNames 
 constexpr std::array<std::string_view, uint32_t(GeometryKind::kCount)> kGeometryNames = {
     "triangles", "triangles with vertex data", "spheres", "planes"};
 
+std::string_view filter_word(FilterKind kind) {
+  switch (kind) {
+    case FilterKind::kBox:
+      return "box";
+    case FilterKind::kProduct:
+      return "product of two tables";
+    case FilterKind::kTable:
+      return "table of cells";
+  }
+  return "";
+}
+
 /// "3 trianglemesh, 1 sphere" of the shapes as written.
 std::string shape_types(const Description& description) {
   std::map<std::string, uint64_t> counts;
@@ -76,9 +88,8 @@ std::string holds(const Description& description, const Scene& scene) {
       fmt::format("  film       {}x{}, crop x {}..{} y {}..{}, \"{}\", tone map {}, gamma {:.3g}\n",
                   film.width, film.height, film.crop_x0, film.crop_x1, film.crop_y0, film.crop_y1,
                   film.filename, tone_map_name(film.tone_map), film.gamma);
-  text +=
-      fmt::format("  filter     {}, radius {:.3g} x {:.3g} pixels\n",
-                  scene.filter.box ? "box" : "table", scene.filter.radius_x, scene.filter.radius_y);
+  text += fmt::format("  filter     {}, radius {:.3g} x {:.3g} pixels\n",
+                      filter_word(scene.filter.kind), scene.filter.radius_x, scene.filter.radius_y);
   text += fmt::format("  integrator {}, depth {}\n", scene.direct_only ? "direct" : "path",
                       scene.max_depth);
   return text;
@@ -125,7 +136,8 @@ std::string memory_of(const Scene& scene) {
   line("light choice", scene.light_choice.bytes());
   for (uint32_t kind = 0; kind < kMaterialKinds; ++kind)
     line(fmt::format("material {}", kMaterialNames[kind]), scene.parameters[kind].bytes());
-  line("pixel filter", scene.filter_marginal.bytes() + scene.filter_conditional.bytes() +
+  line("pixel filter", scene.filter_quantile_x.bytes() + scene.filter_quantile_y.bytes() +
+                           scene.filter_marginal.bytes() + scene.filter_conditional.bytes() +
                            scene.filter_sign.bytes());
   line("all of the scene", scene.bytes());
   line("film", scene.film.crop_width() * size_t(scene.film.crop_height()) * sizeof(FilmPixel));

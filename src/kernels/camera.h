@@ -38,38 +38,59 @@ YAT_INLINE CellSample<A> invert_cumulative(const float* table, const UInt<A>& ro
   return {xsimd::to_float(xsimd::bitwise_cast<int32_t>(cell)) + inside, cell};
 }
 
+/// Inverse of a cumulative distribution given by its kFilterQuantiles + 1 quantiles, linear in
+/// between.
 template <class A>
+YAT_INLINE Float<A> quantile(const float* table, const Float<A>& u) {
+  const Float<A> place = u * Float<A>(float(kFilterQuantiles));
+  const Int<A> k = xsimd::to_int(place);
+  const UInt<A> row = xsimd::min(xsimd::bitwise_cast<uint32_t>(k), UInt<A>(kFilterQuantiles - 1));
+  const Float<A> low = gather<A>(table, row), high = gather<A>(table, row + UInt<A>(1u));
+  return low + (place - xsimd::to_float(k)) * (high - low);
+}
+
+template <class A, FilterKind kKind>
 YAT_INLINE FilterSample<A> sample_filter(const FilterView& filter, const Float<A>& u,
                                          const Float<A>& v) {
   const Float<A> one(1.f), two(2.f);
-  if (filter.box)
+  if constexpr (kKind == FilterKind::kBox)
     return {(two * u - one) * Float<A>(filter.radius_x),
             (two * v - one) * Float<A>(filter.radius_y), one};
-  const CellSample<A> y = invert_cumulative<A>(filter.marginal, UInt<A>(0u), v);
-  const CellSample<A> x =
-      invert_cumulative<A>(filter.conditional, y.cell * UInt<A>(kFilterBins + 1), u);
-  const Float<A> scale(2.f / kFilterBins);
-  return {(x.place * scale - one) * Float<A>(filter.radius_x),
-          (y.place * scale - one) * Float<A>(filter.radius_y),
-          gather<A>(filter.sign, y.cell * UInt<A>(kFilterBins) + x.cell)};
+  if constexpr (kKind == FilterKind::kProduct)
+    return {quantile<A>(filter.quantile_x, u) * Float<A>(filter.radius_x),
+            quantile<A>(filter.quantile_y, v) * Float<A>(filter.radius_y), one};
+  if constexpr (kKind == FilterKind::kTable) {
+    const CellSample<A> y = invert_cumulative<A>(filter.marginal, UInt<A>(0u), v);
+    const CellSample<A> x =
+        invert_cumulative<A>(filter.conditional, y.cell * UInt<A>(kFilterBins + 1), u);
+    const Float<A> scale(2.f / kFilterBins);
+    return {(x.place * scale - one) * Float<A>(filter.radius_x),
+            (y.place * scale - one) * Float<A>(filter.radius_y),
+            gather<A>(filter.sign, y.cell * UInt<A>(kFilterBins) + x.cell)};
+  }
 }
 
 /// Source: lxs 3.2 (perspective, thin lens). The lens shift is divided by the focal distance
 /// rather than the direction multiplied by it: a focal distance of 1e30 stays finite.
-template <class A, bool kThinLens>
-void generate_camera_rays(const SceneView& scene, const CameraSample<ConstColumn>& samples,
-                          const float* film_u, const float* film_v, const float* lens_u,
-                          const float* lens_v, const Ray<Column>& rays,
-                          const PathState<Column>& paths, uint32_t n) noexcept {
+template <class A, bool kThinLens, FilterKind kFilter>
+YAT_INLINE void generate_rows(const SceneView& scene, const CameraSample<ConstColumn>& samples,
+                              const float* film_u, const float* film_v, const float* lens_u,
+                              const float* lens_v, const Ray<Column>& rays,
+                              const PathState<Column>& paths, uint32_t n) noexcept {
   const CameraView& camera = scene.camera;
   const Float<A> one(1.f), zero(0.f), half(.5f);
   const auto broadcast3 = [](const float* p) {
     return Vec3<A>{Float<A>(p[0]), Float<A>(p[1]), Float<A>(p[2])};
   };
   for (uint32_t row = 0; row < n; row += kLanes<A>) {
+    // Padding may hold anything: as an index, only a number that was drawn is safe.
+    const Mask<A> active = tail_mask<A>(row, n);
+    const auto film_number = [&active](const float* column, uint32_t first) {
+      return only<A>(active, load<A>(column, first));
+    };
     const CameraSample<Lanes<A>::template Of> sample = load<A>(samples, row);
     const FilterSample<A> offset =
-        sample_filter<A>(scene.filter, load<A>(film_u, row), load<A>(film_v, row));
+        sample_filter<A, kFilter>(scene.filter, film_number(film_u, row), film_number(film_v, row));
     const auto to_float = [](const UInt<A>& v) {
       return xsimd::to_float(xsimd::bitwise_cast<int32_t>(v));
     };
@@ -105,6 +126,26 @@ void generate_camera_rays(const SceneView& scene, const CameraSample<ConstColumn
     path.sample = sample.sample;
     path.depth = UInt<A>(0u);
     store<A>(path, paths, row);
+  }
+}
+
+/// See KernelTable::generate_camera_rays. The filter's kind is asked before the loop.
+template <class A, bool kThinLens>
+void generate_camera_rays(const SceneView& scene, const CameraSample<ConstColumn>& samples,
+                          const float* film_u, const float* film_v, const float* lens_u,
+                          const float* lens_v, const Ray<Column>& rays,
+                          const PathState<Column>& paths, uint32_t n) noexcept {
+  const auto run = [&]<FilterKind kFilter>(std::integral_constant<FilterKind, kFilter>) {
+    generate_rows<A, kThinLens, kFilter>(scene, samples, film_u, film_v, lens_u, lens_v, rays,
+                                         paths, n);
+  };
+  switch (scene.filter.kind) {
+    case FilterKind::kBox:
+      return run(std::integral_constant<FilterKind, FilterKind::kBox>{});
+    case FilterKind::kProduct:
+      return run(std::integral_constant<FilterKind, FilterKind::kProduct>{});
+    case FilterKind::kTable:
+      return run(std::integral_constant<FilterKind, FilterKind::kTable>{});
   }
 }
 

@@ -138,12 +138,14 @@ AlignedArray<float> to_array(const std::vector<float>& values) {
 }
 
 void set_filter(FilterTables tables, Scene& scene) {
+  scene.filter_quantile_x = to_array(tables.quantile_x);
+  scene.filter_quantile_y = to_array(tables.quantile_y);
   scene.filter_marginal = to_array(tables.marginal);
   scene.filter_conditional = to_array(tables.conditional);
   scene.filter_sign = to_array(tables.sign);
   scene.filter.radius_x = tables.radius_x;
   scene.filter.radius_y = tables.radius_y;
-  scene.filter.box = tables.box;
+  scene.filter.kind = tables.kind;
 }
 
 /// Statements that change nothing in the converged picture of a path tracer.
@@ -224,6 +226,8 @@ SceneView Scene::view() const {
   view.camera = camera;
   view.filter = filter;
   view.radius = radius;
+  view.filter.quantile_x = filter_quantile_x.data();
+  view.filter.quantile_y = filter_quantile_y.data();
   view.filter.marginal = filter_marginal.data();
   view.filter.conditional = filter_conditional.data();
   view.filter.sign = filter_sign.data();
@@ -235,7 +239,8 @@ SceneView Scene::view() const {
 size_t Scene::bytes() const {
   size_t sum = triangles.bytes() + triangle_vertices.bytes() + spheres.bytes() + planes.bytes() +
                prim_bin.bytes() + tree.bytes() + lights.bytes() + light_choice.bytes() +
-               filter_marginal.bytes() + filter_conditional.bytes() + filter_sign.bytes();
+               filter_quantile_x.bytes() + filter_quantile_y.bytes() + filter_marginal.bytes() +
+               filter_conditional.bytes() + filter_sign.bytes();
   for (const auto& table : parameters) sum += table.bytes();
   return sum;
 }

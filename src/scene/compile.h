@@ -53,6 +53,7 @@ struct Scene {
   RowTable<LightChoice> light_choice;
   std::array<AlignedArray<uint32_t>, kMaterialKinds> parameters;  ///< row_words<its record> per row
   std::array<uint32_t, kMaterialKinds> parameter_rows{};
+  AlignedArray<float> filter_quantile_x, filter_quantile_y;
   AlignedArray<float> filter_marginal, filter_conditional, filter_sign;
   CameraView camera{};
   FilterView filter{};

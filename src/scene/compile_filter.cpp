@@ -1,14 +1,18 @@
 // PixelFilter -> tables for importance sampling (lxs 4.5).
 //
-// The filter is taken as constant in each of kFilterBins^2 cells, with the cell's mean as value.
-// The mean comes from 4 x 4 Gauss-Legendre points a cell, exact for polynomials up to degree 7 in x
-// and in y; kinks (triangle, the rim of Mitchell) cost less than 1e-4 of the whole. A sample is
-// drawn with probability |F| / sum |F| and weighted by sign(F) sum |F| / sum F, so that the
+// A product of positive functions (triangle, gaussian, blackmanharris) is drawn from the quantiles
+// of its two factors, computed from 8192 cells: 512 pieces of equal weight each.
+//
+// Any other filter is taken as constant in each of kFilterBins^2 cells, with the cell's mean as
+// value. The mean comes from 4 x 4 Gauss-Legendre points a cell, exact for polynomials up to degree
+// 7 in x and in y; kinks (triangle, the rim of Mitchell) cost less than 1e-4 of the whole. A sample
+// is drawn with probability |F| / sum |F| and weighted by sign(F) sum |F| / sum F, so that the
 // expected picture is the filtered one (for the filter constant in each cell) and constant stays
 // constant.
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -55,7 +59,7 @@ using Kernel = std::function<double(double x, double y)>;
 struct Filter {
   Kernel kernel;
   double radius_x = .5, radius_y = .5;
-  bool box = false;
+  FilterKind kind = FilterKind::kTable;
 };
 
 double width(Parameters& p, std::string_view name, float fallback) {
@@ -88,14 +92,14 @@ Filter make_filter(Parameters& p) {
   const std::string& type = p.plugin().type;
   if (type == "box") {
     const double xw = width(p, "xwidth", .5f), yw = width(p, "ywidth", .5f);
-    return {{}, xw, yw, true};
+    return {{}, xw, yw, FilterKind::kBox};
   }
   if (type == "triangle") {
     const double xw = width(p, "xwidth", 2), yw = width(p, "ywidth", 2);
     return {[=](double x, double y) {
               return std::max(0., xw - std::abs(x)) * std::max(0., yw - std::abs(y));
             },
-            xw, yw};
+            xw, yw, FilterKind::kProduct};
   }
   if (type == "gaussian") {
     const double xw = width(p, "xwidth", 2), yw = width(p, "ywidth", 2);
@@ -103,7 +107,7 @@ Filter make_filter(Parameters& p) {
     const auto g = [alpha](double x, double w) {
       return std::max(0., std::exp(-alpha * x * x) - std::exp(-alpha * w * w));
     };
-    return {[=](double x, double y) { return g(x, xw) * g(y, yw); }, xw, yw};
+    return {[=](double x, double y) { return g(x, xw) * g(y, yw); }, xw, yw, FilterKind::kProduct};
   }
   if (type == "mitchell") return mitchell_filter(p);
   if (type == "sinc") {
@@ -119,7 +123,7 @@ Filter make_filter(Parameters& p) {
     return {[=](double x, double y) {
               return blackman_harris(.5 + x / xw) * blackman_harris(.5 + y / yw);
             },
-            xw / 2, yw / 2};
+            xw / 2, yw / 2, FilterKind::kProduct};
   }
   if (type == "catmullrom") {
     p.accept({"xwidth", "ywidth"});
@@ -171,6 +175,56 @@ void write_cdf(const double* mass, uint32_t n, float* cdf) {
   cdf[n] = 1;
 }
 
+/// Quantiles of f(t) on [-1, 1], kFilterQuantiles + 1 of them; empty if f integrates to nothing.
+std::vector<float> write_quantiles(const std::function<double(double)>& f) {
+  constexpr uint32_t kCells = 8192;
+  std::vector<double> below(kCells + 1, 0.);
+  for (uint32_t i = 0; i < kCells; ++i)
+    below[i + 1] = below[i] + std::max(0., f(2 * (i + .5) / kCells - 1));
+  const double total = below[kCells];
+  if (!(total > 0) || !std::isfinite(total)) return {};
+  std::vector<float> quantiles(kFilterQuantiles + 1);
+  uint32_t cell = 0;
+  for (uint32_t k = 0; k <= kFilterQuantiles; ++k) {
+    const double wanted = total * k / kFilterQuantiles;
+    while (cell + 1 < kCells && below[cell + 1] < wanted) ++cell;
+    const double mass = below[cell + 1] - below[cell];
+    const double inside = mass > 0 ? std::clamp((wanted - below[cell]) / mass, 0., 1.) : 0.;
+    quantiles[k] = float(2 * (cell + inside) / kCells - 1);
+  }
+  return quantiles;
+}
+
+/// Fills the tables of a filter that is no product of positive functions. False if the filter does
+/// not integrate to anything positive.
+bool write_cells(const Filter& filter, FilterTables& tables) {
+  std::vector<double> cells = integrate_cells(filter);
+  double sum = 0, sum_abs = 0;
+  for (double f : cells) sum += f, sum_abs += std::abs(f);
+  if (!(sum > 1e-3 * sum_abs) || !std::isfinite(sum_abs)) return false;
+  tables.marginal.resize(kN + 1);
+  tables.conditional.resize(kN * (kN + 1));
+  tables.sign.resize(kN * kN);
+  std::vector<double> rows(kN, 0.);
+  for (uint32_t k = 0; k < kN * kN; ++k) {
+    tables.sign[k] = float((cells[k] < 0 ? -sum_abs : sum_abs) / sum);
+    cells[k] = std::abs(cells[k]);
+    rows[k / kN] += cells[k];
+  }
+  write_cdf(rows.data(), kN, tables.marginal.data());
+  for (uint32_t j = 0; j < kN; ++j)
+    write_cdf(&cells[j * kN], kN, &tables.conditional[j * (kN + 1)]);
+  return true;
+}
+
+bool write_product(const Filter& filter, FilterTables& tables) {
+  tables.quantile_x =
+      write_quantiles([&](double t) { return filter.kernel(t * filter.radius_x, 0); });
+  tables.quantile_y =
+      write_quantiles([&](double t) { return filter.kernel(0, t * filter.radius_y); });
+  return !tables.quantile_x.empty() && !tables.quantile_y.empty();
+}
+
 }  // namespace
 
 FilterTables compile_filter(const std::optional<Plugin>& plugin, Diagnostics& diagnostics) {
@@ -181,34 +235,19 @@ FilterTables compile_filter(const std::optional<Plugin>& plugin, Diagnostics& di
   p.report_unused();
 
   FilterTables tables;
-  if (!filter.box) {
-    std::vector<double> cells = integrate_cells(filter);
-    double sum = 0, sum_abs = 0;
-    for (double f : cells) sum += f, sum_abs += std::abs(f);
-    // A filter that integrates to nothing (odd B and C, alpha 0) would divide by nothing.
-    if (!(sum > 1e-3 * sum_abs) || !std::isfinite(sum_abs)) {
-      diagnostics.warning(used.loc, fmt::format("{} does not integrate to anything positive: a box "
-                                                "of its size is used",
-                                                p.what()));
-      filter.box = true;
-    } else {
-      tables.marginal.resize(kN + 1);
-      tables.conditional.resize(kN * (kN + 1));
-      tables.sign.resize(kN * kN);
-      std::vector<double> rows(kN, 0.);
-      for (uint32_t k = 0; k < kN * kN; ++k) {
-        tables.sign[k] = float((cells[k] < 0 ? -sum_abs : sum_abs) / sum);
-        cells[k] = std::abs(cells[k]);
-        rows[k / kN] += cells[k];
-      }
-      write_cdf(rows.data(), kN, tables.marginal.data());
-      for (uint32_t j = 0; j < kN; ++j)
-        write_cdf(&cells[j * kN], kN, &tables.conditional[j * (kN + 1)]);
-    }
+  const bool usable = filter.kind == FilterKind::kBox       ? true
+                      : filter.kind == FilterKind::kProduct ? write_product(filter, tables)
+                                                            : write_cells(filter, tables);
+  // A filter that integrates to nothing (odd B and C, alpha 0) would divide by nothing.
+  if (!usable) {
+    diagnostics.warning(used.loc, fmt::format("{} does not integrate to anything positive: a box "
+                                              "of its size is used",
+                                              p.what()));
+    filter.kind = FilterKind::kBox;
   }
   tables.radius_x = float(filter.radius_x);
   tables.radius_y = float(filter.radius_y);
-  tables.box = filter.box;
+  tables.kind = filter.kind;
   return tables;
 }
 

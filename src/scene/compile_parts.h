@@ -25,11 +25,12 @@ FilmSettings compile_film(const Description& description, const CompileOptions& 
                           Diagnostics& diagnostics);
 
 struct FilterTables {
-  std::vector<float> marginal, conditional, sign;  ///< empty where `box`
+  FilterKind kind = FilterKind::kBox;
   float radius_x = .5f, radius_y = .5f;            ///< [pixels]
-  bool box = true;
+  std::vector<float> quantile_x, quantile_y;       ///< kProduct
+  std::vector<float> marginal, conditional, sign;  ///< kTable
 };
-/// Integrates the filter over kFilterBins^2 cells of [-radius, radius]^2.
+/// The tables of FilterView for the statement; without one, LuxRender's default (mitchell).
 FilterTables compile_filter(const std::optional<Plugin>& filter, Diagnostics& diagnostics);
 
 struct CameraSetup {

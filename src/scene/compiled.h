@@ -143,17 +143,29 @@ struct CameraView {
   float near_depth, far_depth;    ///< hither and yon, along the view axis [m]
 };
 
-/// Pixel filter as a table for importance sampling: 2 x 2D inverse distribution, see
-/// kernels/camera.h. Offsets in pixels from the pixel centre.
+enum class FilterKind : uint32_t {
+  kBox,      ///< uniform over the radius: no table
+  kProduct,  ///< f(x) g(y), nowhere negative: inverted cumulative distributions
+  kTable,    ///< any: cumulative distributions over cells, with signs
+};
+
+/// Pixel filter as tables for importance sampling, see kernels/camera.h. Offsets in pixels from the
+/// pixel centre.
 struct FilterView {
+  FilterKind kind = FilterKind::kBox;
+  float radius_x = 0.5f, radius_y = 0.5f;
+  // kProduct: kFilterQuantiles + 1 offsets in units of the radius, from -1 to 1, between which
+  // equal shares of the filter lie.
+  const float* quantile_x = nullptr;
+  const float* quantile_y = nullptr;
+  // kTable.
   const float* marginal = nullptr;  ///< kFilterBins + 1 cumulative values over y, 0..1
   const float* conditional =
       nullptr;                  ///< kFilterBins rows of kFilterBins + 1 cumulative values over x
   const float* sign = nullptr;  ///< kFilterBins^2: weight of a sample in the cell (1 where >= 0)
-  float radius_x = 0.5f, radius_y = 0.5f;
-  bool box = true;  ///< uniform over the radius: no table needed
 };
 inline constexpr uint32_t kFilterBins = 64;
+inline constexpr uint32_t kFilterQuantiles = 512;
 
 // ---- Everything ------------------------------------------------------------------------------
 

@@ -24,6 +24,13 @@ CellPlace invert(const float* cumulative, double u) {
   return {cell + inside, cell};
 }
 
+/// Inverse of a cumulative distribution given by its quantiles, linear in between.
+double quantile(const float* table, double u) {
+  const double place = u * kFilterQuantiles;
+  const auto k = std::min(uint32_t(place), kFilterQuantiles - 1);
+  return double(table[k]) + (place - k) * (double(table[k + 1]) - double(table[k]));
+}
+
 struct CameraStart {
   RaySegment ray;
   double weight;  ///< sign of the pixel filter
@@ -39,7 +46,10 @@ CameraStart camera_ray(const Scene& scene, const Plan& plan, uint32_t x, uint32_
   CameraStart start{};
   double dx = 2 * double(u) - 1, dy = 2 * double(v) - 1;
   start.weight = 1;
-  if (!filter.box) {
+  if (filter.kind == FilterKind::kProduct) {
+    dx = quantile(filter.quantile_x, double(u));
+    dy = quantile(filter.quantile_y, double(v));
+  } else if (filter.kind == FilterKind::kTable) {
     const CellPlace row = invert(filter.marginal, double(v));
     const CellPlace column = invert(filter.conditional + row.cell * (kFilterBins + 1), double(u));
     dx = column.place * 2 / kFilterBins - 1;
