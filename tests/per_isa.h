@@ -39,8 +39,8 @@ inline std::vector<const IsaEntry*> isas_here() {
   return entries;
 }
 
-#define YAT_INSTANTIATE_PER_ISA(Fixture)                                                  \
-  INSTANTIATE_TEST_SUITE_P(Isa, Fixture, testing::ValuesIn(yat::isas_here()),             \
+#define YAT_INSTANTIATE_PER_ISA(Fixture)                                                   \
+  INSTANTIATE_TEST_SUITE_P(Isa, Fixture, testing::ValuesIn(yat::isas_here()),              \
                            [](const testing::TestParamInfo<const yat::IsaEntry*>& entry) { \
                              return std::string(entry.param->name);                        \
                            })

@@ -214,8 +214,7 @@ double light_power(const LightRow<Value>& light, double scene_radius) {
 
 void finish_lights(std::vector<LightRow<Value>> rows, double scene_radius, Scene& scene) {
   std::vector<double> power;
-  for (const LightRow<Value>& row : rows)
-    power.push_back(light_power(row, scene_radius));
+  for (const LightRow<Value>& row : rows) power.push_back(light_power(row, scene_radius));
   const AliasTable table = make_alias_table(power);
   scene.lights.resize(uint32_t(rows.size()));
   scene.light_choice.resize(uint32_t(rows.size()));

@@ -89,8 +89,8 @@ struct PlanePrice {
     low.max[axis] = high.min[axis] = at;
     const double low_area = low.area(), high_area = high.area();
     return prices.traversal(area) + ((left ? low_area * prices.leaf(left, low_area) : 0) +
-                                (right ? high_area * prices.leaf(right, high_area) : 0)) /
-                                   area;
+                                     (right ? high_area * prices.leaf(right, high_area) : 0)) /
+                                        area;
   }
 };
 
@@ -232,9 +232,10 @@ ObjectSplit exact_object_split(std::span<Reference> references, double area, con
     for (size_t i = 1; i < n; ++i) {
       box.add(sorted[i - 1].box);
       const double left_area = box.area();
-      const double cost = prices.traversal(area) + (left_area * prices.leaf(i, left_area) +
-                                               right_area[i] * prices.leaf(n - i, right_area[i])) /
-                                                  area;
+      const double cost =
+          prices.traversal(area) + (left_area * prices.leaf(i, left_area) +
+                                    right_area[i] * prices.leaf(n - i, right_area[i])) /
+                                       area;
       if (cost < best.cost) best = {cost, axis, i};
     }
     if (best.cost < before) chosen = sorted;
@@ -282,9 +283,10 @@ ObjectSplit find_object_split(std::span<Reference> references, const Box& box,
       const size_t right = references.size() - left;
       if (left == 0 || right == 0) continue;
       const double left_area = side.area();
-      const double cost = prices.traversal(area) + (left_area * prices.leaf(left, left_area) +
-                                               right_area[b] * prices.leaf(right, right_area[b])) /
-                                                  area;
+      const double cost =
+          prices.traversal(area) + (left_area * prices.leaf(left, left_area) +
+                                    right_area[b] * prices.leaf(right, right_area[b])) /
+                                       area;
       if (cost < best.cost) {
         best = {cost, axis, left};
         best_bin = int(b);
