@@ -12,8 +12,9 @@ add_test(NAME neon_compiles COMMAND ${PROJECT_SOURCE_DIR}/tools/check_neon.sh ${
                                     ${yat_xsimd_include} ${YAT_KERNEL_SOURCES})
 set_tests_properties(neon_compiles PROPERTIES LABELS per_isa SKIP_RETURN_CODE 77 TIMEOUT 600)
 
-# The per-instruction-set tests of all groups on an emulated old CPU. Deferred to the end of this
-# folder, when every group has added its programs. Sanitizers do not run under the emulator.
+# The per-instruction-set tests of all groups on emulated CPUs for which sse42 and avx2 are the
+# highest. Deferred to the end of this folder, when every group has added its programs. Sanitizers do
+# not run under the emulator.
 function(yat_add_low_isa_test)
   get_property(targets DIRECTORY PROPERTY BUILDSYSTEM_TARGETS)
   set(programs "")
@@ -23,8 +24,12 @@ function(yat_add_low_isa_test)
       list(APPEND programs $<TARGET_FILE:${target}>)
     endif()
   endforeach()
-  add_test(NAME low_isa_nehalem COMMAND ${PROJECT_SOURCE_DIR}/tools/check_low_isa.sh Nehalem ${programs})
-  set_tests_properties(low_isa_nehalem PROPERTIES LABELS per_isa SKIP_RETURN_CODE 77 TIMEOUT 1200)
+  add_test(NAME low_isa_nehalem
+           COMMAND ${PROJECT_SOURCE_DIR}/tools/check_low_isa.sh Nehalem sse42 ${programs})
+  add_test(NAME low_isa_haswell
+           COMMAND ${PROJECT_SOURCE_DIR}/tools/check_low_isa.sh Haswell avx2 ${programs})
+  set_tests_properties(low_isa_nehalem low_isa_haswell
+                       PROPERTIES LABELS per_isa SKIP_RETURN_CODE 77 TIMEOUT 1200)
 endfunction()
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT YAT_SANITIZE)
   cmake_language(DEFER CALL yat_add_low_isa_test)

@@ -1,39 +1,52 @@
 #!/usr/bin/env bash
-# check_low_isa.sh CPU TEST_PROGRAM...
+# check_low_isa.sh CPU ISA TEST_PROGRAM...
 #
-# Runs the per-instruction-set tests (suites Isa/...) of the test programs on an emulated old CPU, so
-# that the lowest kernels, and the choice of them, are tested on what they are for: an instruction that
-# the CPU lacks ends the program. Exit 77 (skipped) without qemu-x86_64 (package qemu-user).
+# Runs the per-instruction-set tests of ISA (Isa/.../ISA) of the test programs on an emulated CPU for
+# which ISA is the highest, so that these kernels, and the choice of them, are tested on what they are
+# for: an instruction that the CPU lacks ends the program. Exit 77 (skipped) without a qemu-x86_64
+# (package qemu-user) that knows AVX2 (7.2 or newer); without a single such test: failed.
 set -euo pipefail
-cpu=$1
-shift
+cpu=$1 isa=$2
+shift 2
 
 emulator=$(command -v qemu-x86_64 || command -v qemu-x86_64-static || true)
 if [ -z "$emulator" ]; then
   echo "skipped: no qemu-x86_64 here (package qemu-user)"
   exit 77
 fi
-# Native: emulation is only for what is tested.
-programs=()
-for program in "$@"; do
-  # Into a variable: a pipe to grep -q would end the program by SIGPIPE.
-  tests=$("$program" --gtest_list_tests)
-  case $tests in *Isa/*) programs+=("$program") ;; esac
-done
-if [ ${#programs[@]} -eq 0 ]; then
-  echo "no test program has per-instruction-set tests"
+version=$("$emulator" --version | sed -nE '1s/.* version ([0-9]+\.[0-9]+).*/\1/p')
+if [ "$(printf '%s\n' 7.2 "$version" | sort -V | head -n 1)" != 7.2 ]; then
+  echo "skipped: $emulator is $version, and AVX2 is emulated from 7.2 on"
   exit 77
 fi
-failed=0
-for program in "${programs[@]}"; do
-  echo "== $(basename "$program") on $cpu"
-  log=$(mktemp)
-  if "$emulator" -cpu "$cpu" "$program" --gtest_filter='Isa/*' --gtest_brief=1 >"$log" 2>&1; then
-    tail -n 2 "$log"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+ran=0 failed=0
+for program in "$@"; do
+  # Native: emulation is only for what is tested. Into a variable: a pipe to grep -q would end the
+  # program by SIGPIPE.
+  tests=$("$program" --gtest_list_tests)
+  case $tests in *Isa/*) ;; *) continue ;; esac
+  echo "== $(basename "$program"), $isa on $cpu"
+  # Lowest first: the last one is what the program would choose on this CPU.
+  highest=$("$emulator" -cpu "$cpu" "$program" --gtest_list_tests --gtest_filter='Isa/*' 2>/dev/null |
+    sed -nE 's|^  .*/([a-z0-9_]+)  # .*|\1|p' | awk '!seen[$0]++ { last = $0 } END { print last }')
+  if [ "$highest" != "$isa" ]; then
+    echo "the program takes ${highest:-nothing} for the best of this CPU, not $isa"
+    failed=1
+    continue
+  fi
+  if "$emulator" -cpu "$cpu" "$program" --gtest_filter="Isa/*/$isa" >"$log" 2>&1 &&
+    grep -qE '^\[  PASSED  \] [1-9][0-9]* test' "$log"; then
+    grep -E '^\[=+\] .* ran\.' "$log"
+    ran=$((ran + 1))
   else
     tail -n 40 "$log"
     failed=1
   fi
-  rm -f "$log"
 done
+if [ $ran -eq 0 ] && [ $failed -eq 0 ]; then
+  echo "no test program has tests of $isa"
+  failed=1
+fi
 exit $failed
