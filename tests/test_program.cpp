@@ -1,6 +1,10 @@
 // The program as people run it: exit codes, messages, files.
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -114,6 +118,94 @@ TEST_F(Program, AnUnwritablePlaceIsCodeThreeBeforeRendering) {
   EXPECT_NE(result.err.find("file/picture.png: cannot write: "), std::string::npos) << result.err;
   EXPECT_EQ(result.err.find("Mrays"), std::string::npos) << "rendered first: " << result.err;
   EXPECT_EQ(yat({"render", "scene.lxs", "--stats", "file/stats.json"}).code, 3);
+}
+
+// A limit on the length of files stands for a full disk: both fail in the middle of a write.
+TEST_F(Program, AFullDiskLeavesNoHalfPicture) {
+  struct LimitedFiles {
+    rlimit before{};
+    LimitedFiles() {
+      getrlimit(RLIMIT_FSIZE, &before);
+      rlimit limited = before;
+      limited.rlim_cur = 1200;
+      setrlimit(RLIMIT_FSIZE, &limited);
+    }
+    ~LimitedFiles() { setrlimit(RLIMIT_FSIZE, &before); }
+  };
+  for (const char* file : {"full.png", "full.exr", "full.jpg"}) {
+    write_whole(folder_ / file, "old");
+    const ProgramResult result = [&] {
+      const LimitedFiles limited;
+      return yat({"render", "scene.lxs", "--spp", "1", "-q", "-o", file});
+    }();
+    EXPECT_EQ(result.code, 3) << file;
+    EXPECT_EQ(result.err, std::string("error: ") + file + ": cannot write: File too large\n");
+    EXPECT_EQ(read_whole(folder_ / file), "old");
+  }
+  for (const auto& entry : fs::directory_iterator(folder_))
+    EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+}
+
+// A rename onto a device or a pipe would put a file in its place.
+TEST_F(Program, SpecialFilesAndLinksStayWhatTheyAre) {
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  const int pipe = open((folder_ / "pipe").c_str(), O_RDWR | O_NONBLOCK);
+  ASSERT_GE(pipe, 0);
+  const ProgramResult piped =
+      yat({"render", "scene.lxs", "--spp", "1", "-q", "-o", "p.png", "--stats", "pipe"});
+  EXPECT_EQ(piped.code, 0) << piped.err;
+  EXPECT_TRUE(fs::is_fifo(folder_ / "pipe"));
+  char first = 0;
+  EXPECT_EQ(read(pipe, &first, 1), 1);
+  EXPECT_EQ(first, '{');
+  close(pipe);
+  fs::create_directories(folder_ / "real");
+  write_whole(folder_ / "real" / "r.png", "old");
+  fs::create_symlink("real/r.png", folder_ / "l.png");
+  fs::create_symlink("real/new.png", folder_ / "n.png");
+  const ProgramResult linked =
+      yat({"render", "scene.lxs", "--spp", "1", "-q", "-o", "l.png", "-o", "n.png"});
+  EXPECT_EQ(linked.code, 0) << linked.err;
+  EXPECT_TRUE(fs::is_symlink(folder_ / "l.png"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "n.png"));
+  EXPECT_GT(fs::file_size(folder_ / "real" / "r.png"), 100u);
+  EXPECT_GT(fs::file_size(folder_ / "real" / "new.png"), 100u);
+  fs::create_symlink("loop.png", folder_ / "loop.png");
+  EXPECT_EQ(yat({"render", "scene.lxs", "-q", "-o", "loop.png"}).code, 3);
+}
+
+TEST_F(Program, APictureThatFitsNoMemoryIsCodeThreeAtOnce) {
+  const ProgramResult result =
+      yat({"render", "scene.lxs", "--resolution", "65535x65535", "-o", "big.exr"});
+  EXPECT_EQ(result.code, 3);
+  EXPECT_NE(result.err.find("error: out of memory: a picture of 65535 x 65535 pixels needs 429."),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("use a smaller --resolution"), std::string::npos) << result.err;
+}
+
+TEST_F(Program, TooLittleTimeIsNoInterrupt) {
+  const ProgramResult result =
+      yat({"render", "scene.lxs", "--time", "1e-9", "-o", "t.png", "--progress", "none"});
+  EXPECT_EQ(result.code, 3);
+  EXPECT_NE(result.err.find("error: the time was up before the first sample"), std::string::npos)
+      << result.err;
+  EXPECT_FALSE(has("t.png"));
+}
+
+// A pipe whose reader has gone as standard error: the picture is worth more than the progress.
+TEST_F(Program, ALostReaderDoesNotEndARender) {
+  const ProgramResult shell = run_program(
+      {"/bin/sh", "-c",
+       std::string(
+           "{ \"$0\" render scene.lxs --spp 4 -o lost.png --progress plain; echo $? > code; "
+           "} 2>&1 | true"),
+       YAT_PROGRAM},
+      folder_);
+  EXPECT_EQ(shell.code, 0);
+  for (int i = 0; i < 500 && read_whole(folder_ / "code").empty(); ++i) usleep(10000);
+  EXPECT_EQ(read_whole(folder_ / "code"), "0\n");
+  EXPECT_TRUE(has("lost.png"));
 }
 
 TEST_F(Program, WritesEveryPictureAndSaysSo) {

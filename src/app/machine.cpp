@@ -4,7 +4,11 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <fstream>
+#include <string>
+#include <string_view>
 
 namespace yat {
 
@@ -35,6 +39,25 @@ double cpu_seconds() {
   rusage usage{};
   if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
   return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+}
+
+uint64_t available_memory_bytes() {
+  uint64_t available = 0;
+  std::ifstream info("/proc/meminfo");
+  for (std::string line; std::getline(info, line);) {
+    constexpr std::string_view kKey = "MemAvailable:";
+    if (!line.starts_with(kKey)) continue;
+    available = std::strtoull(line.c_str() + kKey.size(), nullptr, 10) * 1024;
+    break;
+  }
+  // Control group of a container, version 2; "max" reads as no number.
+  uint64_t limit = 0, used = 0;
+  if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit &&
+      std::ifstream("/sys/fs/cgroup/memory.current") >> used) {
+    const uint64_t left = limit > used ? limit - used : 1;
+    available = available ? std::min(available, left) : left;
+  }
+  return available;
 }
 
 uint64_t peak_memory_bytes() {

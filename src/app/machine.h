@@ -16,6 +16,9 @@ Machine this_machine();
 
 /// User and system time of all threads so far [s].
 double cpu_seconds();
+/// Memory that this process may still take without swapping, by the system and by the limits of its
+/// control group [bytes]; 0: not known.
+uint64_t available_memory_bytes();
 /// Most memory held at once so far [bytes].
 uint64_t peak_memory_bytes();
 

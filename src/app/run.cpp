@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <new>
 
@@ -11,9 +14,10 @@
 #include "app/console.h"
 #include "app/info.h"
 #include "app/interrupt.h"
+#include "app/machine.h"
 #include "app/passes.h"
 #include "app/report.h"
-#include "app/text_file.h"
+#include "base/whole_file.h"
 #include "film/output.h"
 #include "kernels/dispatch.h"
 #include "scene/parse.h"
@@ -89,6 +93,29 @@ void load(const Arguments& arguments, const KernelTable& kernels, ThreadPool& po
   loaded.time.build = watch.lap();
 }
 
+/// Text for standard output, which may be a full disk or a pipe that nobody reads any more.
+void print(std::string_view text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written || std::fflush(stdout) != 0)
+    throw ResourceError(
+        fmt::format("error: standard output: cannot write: {}", std::strerror(errno)));
+}
+
+/// Asks before the memory is touched: a system that lends more than it has would end the program
+/// in the middle of the work.
+void require_film_memory(const FilmSettings& film) {
+  // Sums, the mean picture, its tone mapped copy and its bytes in a file.
+  const uint64_t pixels = uint64_t(film.crop_width()) * film.crop_height();
+  const uint64_t needed = pixels * (sizeof(FilmPixel) + 12 + 12 + 12);
+  const uint64_t there = available_memory_bytes();
+  if (there && needed > there)
+    throw ResourceError(fmt::format(
+        "error: out of memory: a picture of {} x {} pixels needs {:.1f} GB, {:.1f} GB are free: "
+        "use "
+        "a smaller --resolution or a --crop",
+        film.crop_width(), film.crop_height(), double(needed) * 1e-9, double(there) * 1e-9));
+}
+
 /// Checks before the work what would only fail after it.
 void check_outputs(const std::vector<std::string>& outputs) {
   for (const std::string& output : outputs)
@@ -161,6 +188,7 @@ ExitCode render_command(const Arguments& arguments, Console& console) {
   for (const std::string& file : {arguments.stats_file, arguments.trace_file})
     if (!file.empty()) require_writable(file);
 
+  require_film_memory(report.film);
   Film film(report.film.crop_width(), report.film.crop_height());
   report.film_bytes = film.bytes();
   {
@@ -177,6 +205,10 @@ ExitCode render_command(const Arguments& arguments, Console& console) {
     report.interrupted = guard.interrupted();
     report.time.render = report.totals.seconds;
     report.samples = film.total_samples();
+    if (report.samples == 0 && !report.interrupted && report.totals.timed_out)
+      throw ResourceError(
+          "error: the time was up before the first sample, no picture written: give --time more "
+          "seconds or render fewer pixels");
     if (report.samples == 0) {
       console.line("interrupted before the first sample: no picture written");
       return ExitCode::kInterrupted;
@@ -187,8 +219,8 @@ ExitCode render_command(const Arguments& arguments, Console& console) {
     report.time.write = watch.lap();
   }
   tell_end(console, report, diagnostics, arguments.verbosity);
-  if (!arguments.stats_file.empty()) write_text_file(arguments.stats_file, stats_json(report));
-  if (!arguments.trace_file.empty()) write_text_file(arguments.trace_file, trace_json(report));
+  if (!arguments.stats_file.empty()) write_whole_file(arguments.stats_file, stats_json(report));
+  if (!arguments.trace_file.empty()) write_whole_file(arguments.trace_file, trace_json(report));
   return report.interrupted ? ExitCode::kInterrupted : ExitCode::kDone;
 }
 
@@ -199,19 +231,23 @@ ExitCode info_command(const Arguments& arguments, Console& console) {
   Loaded loaded;
   load(arguments, kernels, pool, diagnostics, loaded);
   diagnostics.flush_repeats();
-  std::fputs(info_text(loaded.description, loaded.scene, loaded.plan).c_str(), stdout);
+  print(info_text(loaded.description, loaded.scene, loaded.plan));
   return ExitCode::kDone;
 }
 
 }  // namespace
 
 ExitCode run(int argc, const char* const* argv) {
+  // A reader that has gone and a file that grew too long are errors of a write, not ends of a
+  // render.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   Console console;
   try {
     const CommandLine line = parse_command_line(argc, argv);
     switch (line.command) {
       case Command::kHelp:
-        std::fputs(line.text.c_str(), stdout);
+        print(line.text);
         return ExitCode::kDone;
       case Command::kInfo:
         return info_command(line.arguments, console);
@@ -228,7 +264,8 @@ ExitCode run(int argc, const char* const* argv) {
     console.line(error.what());
     return ExitCode::kResources;
   } catch (const std::bad_alloc&) {
-    console.line("error: out of memory");
+    console.line(
+        "error: out of memory: use a smaller --resolution, fewer --threads or a smaller scene");
     return ExitCode::kResources;
   } catch (const std::exception& error) {
     // Nothing else should come here; if it does, it is named and the exit code is not 0.

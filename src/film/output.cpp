@@ -1,16 +1,16 @@
 #include "film/output.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <system_error>
 #include <vector>
 
 #include "base/error.h"
+#include "base/whole_file.h"
 #include "film/tonemap.h"
 
 namespace yat {
@@ -39,6 +39,18 @@ const char* writer_of(Format format) {
       return "png";
     default:
       return "jpeg";
+  }
+}
+
+/// A name for what is written into memory; writers look at its extension.
+const char* name_in_memory(Format format) {
+  switch (format) {
+    case Format::kExr:
+      return "picture.exr";
+    case Format::kPng:
+      return "picture.png";
+    default:
+      return "picture.jpg";
   }
 }
 
@@ -74,12 +86,18 @@ OIIO::ImageSpec exr_spec(uint32_t width, uint32_t height, const FilmSettings& se
   return spec;
 }
 
-void write_file(const std::string& file, Format format, const OIIO::ImageSpec& spec,
-                OIIO::TypeDesc type, const void* pixels) {
+/// The picture as the bytes of its file. In memory: the writers of PNG and EXR do not notice a full
+/// disk, and the one of JPEG ends the program.
+std::vector<unsigned char> encode(Format format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                                  const void* pixels) {
   const auto writer = OIIO::ImageOutput::create(writer_of(format));
   if (!writer) throw ResourceError(OIIO::geterror());
-  if (!writer->open(file, spec) || !writer->write_image(type, pixels) || !writer->close())
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  if (!writer->set_ioproxy(&memory) || !writer->open(name_in_memory(format), spec) ||
+      !writer->write_image(type, pixels) || !writer->close())
     throw ResourceError(writer->geterror());
+  return bytes;
 }
 
 }  // namespace
@@ -94,19 +112,15 @@ void write_picture(const std::string& path, std::span<const float> rgb, uint32_t
   if (format == Format::kNone)
     throw UsageError(fmt::format("{}: pictures are written as .exr, .png, .jpg or .jpeg", path));
   if (rgb.size() != size_t(width) * height * 3 || rgb.empty())
-    throw ResourceError(fmt::format("{}: a picture of {} x {} has {} numbers, not {}", path, width,
-                                    height, size_t(width) * height * 3, rgb.size()));
+    throw ResourceError(fmt::format("error: {}: a picture of {} x {} has {} numbers, not {}", path,
+                                    width, height, size_t(width) * height * 3, rgb.size()));
 
-  // Beside its name, so that the rename stays on one file system. The process id keeps two yats
-  // that write the same picture apart.
-  const std::string part = fmt::format("{}.{}.part", path, getpid());
+  std::vector<unsigned char> file;
   try {
-    if (const fs::path folder = fs::path(path).parent_path(); !folder.empty())
-      fs::create_directories(folder);
     if (format == Format::kExr) {
       OIIO::ImageSpec spec = exr_spec(width, height, settings);
       describe(spec, metadata);
-      write_file(part, format, spec, OIIO::TypeDesc::FLOAT, rgb.data());
+      file = encode(format, spec, OIIO::TypeDesc::FLOAT, rgb.data());
     } else {
       const std::vector<float> display = tone_map(rgb, settings);
       std::vector<uint8_t> bytes(display.size());
@@ -115,18 +129,12 @@ void write_picture(const std::string& path, std::span<const float> rgb, uint32_t
       OIIO::ImageSpec spec(int(width), int(height), 3, OIIO::TypeDesc::UINT8);
       if (format == Format::kJpeg) spec.attribute("Compression", "jpeg:95");
       describe(spec, metadata);
-      write_file(part, format, spec, OIIO::TypeDesc::UINT8, bytes.data());
+      file = encode(format, spec, OIIO::TypeDesc::UINT8, bytes.data());
     }
-    fs::rename(part, path);
   } catch (const ResourceError& e) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    throw ResourceError(fmt::format("{}: cannot write the picture: {}", path, e.what()));
-  } catch (const fs::filesystem_error& e) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    throw ResourceError(fmt::format("{}: cannot write the picture: {}", path, e.code().message()));
+    throw ResourceError(fmt::format("error: {}: cannot make the picture: {}", path, e.what()));
   }
+  write_whole_file(path, {reinterpret_cast<const char*>(file.data()), file.size()});
 }
 
 }  // namespace yat
