@@ -1,8 +1,7 @@
 #pragma once
-// The only include of oneTBB: a pool of a fixed number of workers.
+// The only include of oneTBB (with parallel.cpp): pools of a fixed number of workers each.
 
 #include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
@@ -13,14 +12,27 @@
 
 namespace yat {
 
-/// Runs work on `threads` workers. Results must not depend on which worker does what.
+/// Lets oneTBB have as many workers as the largest living pool asks for: by itself it starts one
+/// per processor. Of several controls oneTBB obeys the lowest, so all pools share one, and what
+/// limits a pool is its arena alone.
+class WorkerLimit {
+ public:
+  explicit WorkerLimit(uint32_t threads);
+  ~WorkerLimit();
+  WorkerLimit(const WorkerLimit&) = delete;
+  WorkerLimit& operator=(const WorkerLimit&) = delete;
+
+ private:
+  uint32_t threads_;
+};
+
+/// Runs work on `threads` workers, whatever other pools there are. Results must not depend on which
+/// worker does what.
 class ThreadPool {
  public:
   /// threads = 0: one per processor that this process may use.
   explicit ThreadPool(uint32_t threads = 0)
-      : threads_(threads ? threads : default_threads()),
-        control_(tbb::global_control::max_allowed_parallelism, threads_),
-        arena_(int(threads_)) {}
+      : threads_(threads ? threads : default_threads()), limit_(threads_), arena_(int(threads_)) {}
 
   uint32_t threads() const { return threads_; }
 
@@ -48,7 +60,7 @@ class ThreadPool {
 
  private:
   uint32_t threads_;
-  tbb::global_control control_;
+  WorkerLimit limit_;
   tbb::task_arena arena_;
 };
 
