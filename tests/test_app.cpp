@@ -338,6 +338,10 @@ TEST(Report, StatsAreTheRecordOfABenchmark) {
        {"scene", "scene_hash", "commit", "version", "build", "machine", "seed", "spp", "resolution",
         "settings", "time", "cpu_time", "peak_rss", "rays", "lanes", "stages", "dropped"})
     EXPECT_TRUE(json.contains(key)) << key;
+  // Scripts are written from the document: it names every field.
+  const std::string document = read_whole(YAT_SOURCE_DIR "/docs/profiling.md");
+  for (const auto& field : json.items())
+    EXPECT_NE(document.find("`" + field.key() + "`"), std::string::npos) << field.key();
   EXPECT_EQ(json["spp"], 4);
   EXPECT_EQ(json["rays"]["bounce"], 4000000);
   EXPECT_EQ(json["dropped"]["pdf"], 1);
