@@ -1,6 +1,7 @@
 // Where to split a set of references: planes (with clipping) and partitions of objects.
 
 #include <cstring>
+#include <vector>
 
 #include "scene/tree_parts.h"
 
@@ -295,8 +296,17 @@ ObjectSplit find_object_split(std::span<Reference> references, const Box& box,
   }
   if (best.left == 0) return best;
   const BinMap bin(double(centers.min[best.axis]), double(centers.max[best.axis]), kObjectBins);
-  std::stable_partition(references.begin(), references.end(),
-                        [&](const Reference& r) { return bin(r.center(best.axis)) < best_bin; });
+  // By hand: in libstdc++ 12, std::stable_partition warns of its own deprecated parts under clang.
+  std::vector<Reference> right;
+  right.reserve(references.size() - best.left);
+  size_t kept = 0;
+  for (const Reference& r : references) {
+    if (bin(r.center(best.axis)) < best_bin)
+      references[kept++] = r;
+    else
+      right.push_back(r);
+  }
+  std::copy(right.begin(), right.end(), references.begin() + ptrdiff_t(kept));
   return best;
 }
 
