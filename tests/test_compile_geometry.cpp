@@ -1,5 +1,6 @@
 // Shapes: which way they face, what is dropped, where they end up.
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>

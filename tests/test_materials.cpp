@@ -1,6 +1,7 @@
 // Every material of the registry, on every instruction set: limits, sampling against density,
 // energy, reciprocity, and the formulas once more in double precision.
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>

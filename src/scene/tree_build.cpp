@@ -6,6 +6,7 @@
 
 #include "scene/tree_build.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "scene/tree_parts.h"

@@ -1,5 +1,6 @@
 // Where to split a set of references: planes (with clipping) and partitions of objects.
 
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
