@@ -194,6 +194,19 @@ TEST_F(Program, TooLittleTimeIsNoInterrupt) {
   EXPECT_FALSE(has("t.png"));
 }
 
+TEST_F(Program, LightTooStrongForTheFilmIsCodeOne) {
+  std::string scene(kScene);
+  scene.replace(scene.find("[5 5 5]"), 7, "[1e30 1e30 1e30] \"float power\" [0]");
+  // Looking up into the light: no sample is without it.
+  scene.replace(0, scene.find('\n'), "LookAt 0 0 1  0 0 2  0 1 0");
+  write_whole(folder_ / "strong.lxs", scene);
+  const ProgramResult result = yat({"render", "strong.lxs", "--spp", "1", "-q", "-o", "s.exr"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(result.err.rfind("strong.lxs: error: all 768 samples were dropped", 0), 0u)
+      << result.err;
+  EXPECT_FALSE(has("s.exr"));
+}
+
 // A pipe whose reader has gone as standard error: the picture is worth more than the progress.
 TEST_F(Program, ALostReaderDoesNotEndARender) {
   const ProgramResult shell = run_program(

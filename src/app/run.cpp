@@ -205,6 +205,11 @@ ExitCode render_command(const Arguments& arguments, Console& console) {
     report.interrupted = guard.interrupted();
     report.time.render = report.totals.seconds;
     report.samples = film.total_samples();
+    if (report.samples == 0 && report.totals.stats.paths > 0)
+      throw Error(
+          fmt::format("{}: error: all {} samples were dropped, no picture written: their light is "
+                      "not finite or above {:.3g} W/m2/sr: use weaker lights",
+                      report.scene, report.totals.stats.paths, double(kLargestSample)));
     if (report.samples == 0 && !report.interrupted && report.totals.timed_out)
       throw ResourceError(
           "error: the time was up before the first sample, no picture written: give --time more "
