@@ -118,7 +118,7 @@ Expected expected_at(const LightRow<Value>& row, const glm::dvec3& p, const glm:
       return cos > 0 ? Expected{d2 / (cos * r), cos * r / d2} : Expected{0, 0};
     case LightKind::kSphere: {
       const double far2 = glm::dot(a - p, a - p);
-      if (row.b_x != 0 ? far2 > r * r : far2 <= r * r) return {0, 0};
+      if (row.b_x != 0 ? !(cos > 0) : far2 <= r * r) return {0, 0};
       if (row.b_x == 0) {
         const double s2 = r * r / far2, measure = s2 / (1 + std::sqrt(1 - s2)) * 2 * kPi;
         return {1 / measure, measure};

@@ -57,6 +57,22 @@ TEST_P(Renders, FurnaceAtEveryDepth) {
   expect_value(mean_radiance(text, 16, 40), 1);
 }
 
+// The same in a sphere: its points light themselves, and rounding puts half of them outside of it.
+TEST_P(Renders, SphereFurnaceAtEveryDepth) {
+  for (const char* radius : {"1", "10"}) {
+    const std::string text = view_text("0.1 -.6 .2", "0 0 0", 70, 8, 8) + "ReverseOrientation\n" +
+                             light_text(".5 .5 .5") + matte_text(".5 .5 .5") +
+                             "Shape \"sphere\" \"float radius\" [" + radius + "]\nWorldEnd\n";
+    double exact = 0;
+    for (uint32_t depth = 0; depth <= 3; ++depth) {
+      exact += std::pow(.5, depth + 1);
+      SCOPED_TRACE(depth);
+      expect_value(mean_radiance(text, 64, depth), exact);
+    }
+    expect_value(mean_radiance(text, 64, 40), 1);
+  }
+}
+
 TEST_P(Renders, LitPlaneByLambertsFormula) {
   // A unit square light one above a floor, seen at the point below its centre: E = .752274688.
   const std::string text =

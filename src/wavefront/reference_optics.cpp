@@ -127,16 +127,16 @@ void pick_triangle(const LightRow<Value>& row, const Vec& receiver, double u, do
   }
 }
 
-/// A sphere light: uniform in its cone from outside, over its area from inside.
+/// A sphere light: uniform in its cone if it shines outwards, over its area if inwards.
 void pick_sphere(const LightRow<Value>& row, const Vec& receiver, double u, double v,
                  LightPoint& pick, double& inverse_pdf) {
   const double radius = double(row.extra);
   const Vec center = axis_a(row), way = center - receiver;
   const double distance = glm::length(way);
-  const bool outside = distance > radius;
-  if (outside == (row.b_x != 0)) return;  // on the dark side
+  const bool inwards = row.b_x != 0;
+  if (!inwards && distance <= radius) return;  // on the dark side
   Vec outward;
-  if (outside) {
+  if (!inwards) {
     const double measure = 1 - std::sqrt(1 - radius * radius / (distance * distance));
     pick.wi = Axes(way / distance).to_scene(cone(measure, u, v));
     inverse_pdf = 2 * kPi * measure;
@@ -149,9 +149,11 @@ void pick_sphere(const LightRow<Value>& row, const Vec& receiver, double u, doub
     outward = cone(2, u, v);
     const Vec to = way + radius * outward;
     pick.wi = glm::normalize(to);
-    inverse_pdf = 4 * kPi * radius * radius * glm::dot(outward, pick.wi) / glm::dot(to, to);
+    const double cos = glm::dot(outward, pick.wi);
+    if (!(cos > 0)) return;
+    inverse_pdf = 4 * kPi * radius * radius * cos / glm::dot(to, to);
   }
-  pick.to = center + outward * (radius + (outside ? 1 : -1) * 1e-9 * radius);
+  pick.to = center + outward * (radius + (inwards ? -1 : 1) * 1e-9 * radius);
   pick.pdf = 1 / inverse_pdf;
 }
 
@@ -214,7 +216,8 @@ double light_pdf(const Scene& scene, const Vec& receiver, const Point& at, doubl
     const double radius = double(row.extra);
     const Vec to_center = axis_a(row) - receiver;
     const double distance2 = glm::dot(to_center, to_center);
-    if (distance2 > radius * radius)
+    if (row.b_x == 0 && distance2 <= radius * radius) return 0;
+    if (row.b_x == 0)
       return double(row.probability) / (2 * kPi * (1 - std::sqrt(1 - radius * radius / distance2)));
     area = 4 * kPi * radius * radius;
   }

@@ -1,5 +1,10 @@
 #pragma once
-// A whole sphere: from outside the cone in which it is seen, from inside its area.
+// A whole sphere: the cone in which it is seen if it shines outwards, its area if it shines
+// inwards.
+//
+// Which of the two follows from the light alone. A receiver on the sphere itself is inside or
+// outside by rounding, and the two sides of multiple importance sampling, which round differently,
+// must not take it for different things: what one leaves to the other would be lost.
 
 #include "kernels/light.h"
 #include "kernels/surface.h"
@@ -8,20 +13,19 @@ namespace yat::YAT_ISA {
 
 template <class A>
 struct SphereLight {
-  /// Where a sphere light can be seen from: outside if it shines outwards, else inside.
+  /// How a receiver sees a sphere light.
   struct View {
     Vec3<A> way;       ///< to the centre
     Float<A> squared;  ///< |way|^2
-    Mask<A> outside;   ///< of the receiver
-    Mask<A> lit;       ///< the receiver is on the side that shines
+    Mask<A> by_cone;   ///< the light shines outwards and the receiver is outside
+    Mask<A> by_area;   ///< the light shines inwards; the cosine says from where it is seen
   };
   static YAT_INLINE View view(const LightRowW<A>& row, const Vec3<A>& receiver) {
     View v;
     v.way = light_a<A>(row) - receiver;
     v.squared = dot(v.way, v.way);
-    v.outside = v.squared > row.extra * row.extra;
-    const Mask<A> inwards = row.b_x != Float<A>(0.f);
-    v.lit = (v.outside & ~inwards) | (~v.outside & inwards);
+    v.by_area = row.b_x != Float<A>(0.f);
+    v.by_cone = ~v.by_area & (v.squared > row.extra * row.extra);
     return v;
   }
 
@@ -36,7 +40,7 @@ struct SphereLight {
     pick.pdf = pick.measure = zero;
     Vec3<A> outward = pick.wi;
 
-    const Mask<A> by_cone = seen.outside & seen.lit;
+    const Mask<A> by_cone = seen.by_cone;
     if (any<A>(by_cone)) {
       const Frame<A> frame = Frame<A>::about((one / xsimd::sqrt(seen.squared)) * seen.way);
       const Float<A> sin2_max = radius * radius / seen.squared;
@@ -57,7 +61,7 @@ struct SphereLight {
       pick.pdf = only<A>(by_cone, cone_pdf<A>(measure));
       outward = select(by_cone, cone_outward, outward);
     }
-    const Mask<A> by_area = ~seen.outside & seen.lit;
+    const Mask<A> by_area = seen.by_area;
     if (any<A>(by_area)) {
       const Vec3<A> normal = square_to_sphere<A>(u, v);
       const Vec3<A> way = seen.way + radius * normal;
@@ -72,7 +76,7 @@ struct SphereLight {
       outward = select(good, normal, outward);
     }
     const Float<A> offset = surface_offset(largest_magnitude(center) + radius, outward);
-    const Float<A> reach = radius + xsimd::select(seen.outside, offset, -offset);
+    const Float<A> reach = radius + select<A>(by_area, -offset, offset);
     pick.to = center + reach * outward;
     return pick;
   }
@@ -83,7 +87,7 @@ struct SphereLight {
     const Float<A> radius2 = row.extra * row.extra;
     const Float<A> cone = cone_pdf<A>(one_minus_cos<A>(radius2 / seen.squared));
     const Float<A> area = at.distance * at.distance / (Float<A>(2 * kTwoPi) * radius2 * at.cos);
-    return only<A>(seen.lit, xsimd::select(seen.outside, cone, area));
+    return only<A>(seen.by_cone | seen.by_area, select<A>(seen.by_area, area, cone));
   }
 };
 
