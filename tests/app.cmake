@@ -12,6 +12,9 @@ add_test(NAME neon_compiles COMMAND ${PROJECT_SOURCE_DIR}/tools/check_neon.sh ${
                                     ${yat_xsimd_include} ${YAT_KERNEL_SOURCES})
 set_tests_properties(neon_compiles PROPERTIES LABELS per_isa SKIP_RETURN_CODE 77 TIMEOUT 600)
 
+add_test(NAME format COMMAND ${PROJECT_SOURCE_DIR}/tools/check_format.sh ${PROJECT_SOURCE_DIR})
+set_tests_properties(format PROPERTIES LABELS fast SKIP_RETURN_CODE 77)
+
 # The per-instruction-set tests of all groups on emulated CPUs for which sse42 and avx2 are the
 # highest. Deferred to the end of this folder, when every group has added its programs. Sanitizers do
 # not run under the emulator.
