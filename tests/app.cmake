@@ -10,7 +10,7 @@ get_target_property(yat_xsimd_include xsimd INTERFACE_INCLUDE_DIRECTORIES)
 list(GET yat_xsimd_include 0 yat_xsimd_include)
 add_test(NAME neon_compiles COMMAND ${PROJECT_SOURCE_DIR}/tools/check_neon.sh ${PROJECT_SOURCE_DIR}
                                     ${yat_xsimd_include} ${YAT_KERNEL_SOURCES})
-set_tests_properties(neon_compiles PROPERTIES LABELS per_isa SKIP_RETURN_CODE 77 TIMEOUT 600)
+set_tests_properties(neon_compiles PROPERTIES LABELS per_isa SKIP_RETURN_CODE 77 TIMEOUT 1200)
 
 add_test(NAME format COMMAND ${PROJECT_SOURCE_DIR}/tools/check_format.sh ${PROJECT_SOURCE_DIR})
 set_tests_properties(format PROPERTIES LABELS fast SKIP_RETURN_CODE 77)
