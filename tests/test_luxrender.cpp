@@ -59,9 +59,8 @@ Picture read_reference(const std::string& path) {
   const glm::dmat3 to_709 = glm::inverse(to_film);
   picture.rgb.resize(size_t(spec.width) * size_t(spec.height) * 3);
   for (size_t i = 0; i < size_t(spec.width) * size_t(spec.height); ++i) {
-    const glm::dvec3 film(double(all[i * size_t(spec.nchannels) + c[0]]),
-                          double(all[i * size_t(spec.nchannels) + c[1]]),
-                          double(all[i * size_t(spec.nchannels) + c[2]]));
+    const float* pixel = &all[i * size_t(spec.nchannels)];
+    const glm::dvec3 film{double(pixel[c[0]]), double(pixel[c[1]]), double(pixel[c[2]])};
     const glm::dvec3 rgb = to_709 * film;
     for (int k = 0; k < 3; ++k) picture.rgb[i * 3 + size_t(k)] = float(rgb[k]);
   }
