@@ -1,5 +1,7 @@
 // The traversal against brute force: in float to the bit, in double within its rounding bounds.
 
+#include <algorithm>
+
 #include "per_isa.h"
 #include "traverse_scenes.h"
 
