@@ -10,6 +10,8 @@
 #include <thread>
 #include <utility>
 
+#include "base/fork_join.h"
+
 namespace yat {
 
 /// Lets oneTBB have as many workers as the largest living pool asks for: by itself it starts one
@@ -39,14 +41,14 @@ class ThreadPool {
   /// Calls f(index, worker) for every index in [0, count), in any order; worker in [0, threads()).
   template <class F>
   void for_each(uint32_t count, F&& f) {
+    auto piece = [&](const tbb::blocked_range<uint32_t>& range) {
+      const auto worker = uint32_t(tbb::this_task_arena::current_thread_index());
+      for (uint32_t i = range.begin(); i != range.end(); ++i) f(i, worker);
+    };
+    const ForkedBody body(piece);
+    const ForkJoin job;
     arena_.execute([&] {
-      tbb::parallel_for(
-          tbb::blocked_range<uint32_t>(0, count, 1),
-          [&](const tbb::blocked_range<uint32_t>& range) {
-            const auto worker = uint32_t(tbb::this_task_arena::current_thread_index());
-            for (uint32_t i = range.begin(); i != range.end(); ++i) f(i, worker);
-          },
-          tbb::simple_partitioner());
+      tbb::parallel_for(tbb::blocked_range<uint32_t>(0, count, 1), body, tbb::simple_partitioner());
     });
   }
 
@@ -67,15 +69,19 @@ class ThreadPool {
 /// Both, perhaps at the same time. Inside ThreadPool::run.
 template <class F, class G>
 void parallel_invoke(F&& f, G&& g) {
-  tbb::parallel_invoke(std::forward<F>(f), std::forward<G>(g));
+  const ForkedBody first(f), second(g);
+  const ForkJoin job;
+  tbb::parallel_invoke(first, second);
 }
 
 /// f(begin, end) over pieces of [0, count) of at least `grain`. Inside ThreadPool::run. The pieces
 /// depend on the machine: results must not.
 template <class F>
 void parallel_ranges(uint32_t count, uint32_t grain, F&& f) {
-  tbb::parallel_for(tbb::blocked_range<uint32_t>(0, count, grain),
-                    [&](const tbb::blocked_range<uint32_t>& r) { f(r.begin(), r.end()); });
+  auto piece = [&](const tbb::blocked_range<uint32_t>& r) { f(r.begin(), r.end()); };
+  const ForkedBody body(piece);
+  const ForkJoin job;
+  tbb::parallel_for(tbb::blocked_range<uint32_t>(0, count, grain), body);
 }
 
 }  // namespace yat
