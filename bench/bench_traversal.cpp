@@ -16,9 +16,10 @@
 #include <memory>
 #include <string>
 
-#include "cpu_time.h"
 #include "kernels/dispatch.h"
-#include "traversal_scenes.h"
+#include "measure.h"
+#include "ray_sets.h"
+#include "scene/tree_build.h"
 #if defined(YAT_WITH_EMBREE)
 #include "traversal_embree.h"
 #endif
@@ -109,8 +110,8 @@ void print_table(const Prepared& p) {
   for (const Kernel& k : p.kernels) std::printf(" %9s ns/ray lanes", k.table->isa);
 #if defined(YAT_WITH_EMBREE)
   std::printf("   Embree  ratio best (variant), differing\n");
-  const EmbreeScene embree[2] = {{p.scene, EmbreeScene::Quality::kMedium},
-                                 {p.scene, EmbreeScene::Quality::kHigh}};
+  const EmbreeScene embree[2] = {{p.scene, EmbreeQuality::kMedium},
+                                 {p.scene, EmbreeQuality::kHigh}};
   const std::vector<std::string> variants = EmbreeScene::variants();
 #else
   std::printf("   (no Embree here)\n");
@@ -127,9 +128,9 @@ void print_table(const Prepared& p) {
 #endif
     for (int round = 0; round < 5; ++round) {
       for (size_t k = 0; k < p.kernels.size(); ++k) {
-        const double start = cpu_seconds();
+        const double start = thread_seconds();
         const LaneCount count = batches[k]->trace(p.kernels[k], set.shadow);
-        const double t = cpu_seconds() - start;
+        const double t = thread_seconds() - start;
         best[k] = std::min(best[k], t);
         lanes[k] = double(count.rows) / (double(count.steps) * p.kernels[k].table->lanes);
       }

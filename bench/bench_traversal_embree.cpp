@@ -1,42 +1,22 @@
-#if YAT_EMBREE_MAJOR >= 4
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
-#include <cstring>
-
-#include "cpu_time.h"
+#include "embree_device.h"
+#include "measure.h"
 #include "traversal_embree.h"
 
 namespace yat::bench {
 
 struct EmbreeScene::Impl {
-  RTCDevice device;
+  EmbreeMesh mesh;
+  EmbreeDevice device;
   RTCScene scene;
 };
 
-EmbreeScene::EmbreeScene(const BenchScene& scene, Quality quality)
-    : impl_(new Impl{rtcNewDevice("threads=1,hugepages=1"), nullptr}) {
-  impl_->scene = rtcNewScene(impl_->device);
-  rtcSetSceneBuildQuality(
-      impl_->scene, quality == Quality::kHigh ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
-  RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* const vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, size_t(scene.triangles()) * 3));
-  std::memcpy(vertices, scene.corners.data(), scene.corners.size() * 4);
-  auto* const indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, scene.triangles()));
-  for (uint32_t i = 0; i < 3 * scene.triangles(); ++i) indices[i] = i;
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(impl_->scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(impl_->scene);
+EmbreeScene::EmbreeScene(const BenchScene& scene, EmbreeQuality quality)
+    : impl_(new Impl{EmbreeMesh(scene), EmbreeDevice(1), nullptr}) {
+  impl_->scene = make_embree_scene(impl_->device, impl_->mesh, quality);
 }
 
 EmbreeScene::~EmbreeScene() {
-  rtcReleaseScene(impl_->scene);
-  rtcReleaseDevice(impl_->device);
+  if (impl_->scene) rtcReleaseScene(impl_->scene);
 }
 
 namespace {
@@ -111,9 +91,9 @@ double run_packets(const RaySet& set, std::vector<Hit<Value>>& hits, Call&& call
     p.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
     mask[i] = i < n ? -1 : 0;
   }
-  const double start = cpu_seconds();
+  const double start = thread_seconds();
   for (uint32_t i = 0; i < count; ++i) call(mask + size_t(i) * N, packets[i]);
-  const double seconds = cpu_seconds() - start;
+  const double seconds = thread_seconds() - start;
   for (uint32_t i = 0; i < n; ++i) {
     const auto& p = packets[i / N];
     const uint32_t k = i % N;
@@ -167,7 +147,7 @@ double EmbreeScene::trace(uint32_t variant, const RaySet& set,
     to.tnear = 0, to.tfar = set.shadow ? 1 : r.t_max, to.mask = ~0u;
     rays[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
   }
-  const double start = cpu_seconds();
+  const double start = thread_seconds();
   if (v.calls == Calls::kSingle) {
     for (uint32_t i = 0; i < n; ++i) {
       if (set.shadow) {
@@ -189,7 +169,7 @@ double EmbreeScene::trace(uint32_t variant, const RaySet& set,
     }
   }
 #endif
-  const double seconds = cpu_seconds() - start;
+  const double seconds = thread_seconds() - start;
   for (uint32_t i = 0; i < n; ++i) {
     if (set.shadow) {
       hits[i] = {0, 0, 0, rays[i].ray.tfar < 0 ? 0 : kNone};

@@ -3,14 +3,14 @@
 
 #include <memory>
 
-#include "traversal_scenes.h"
+#include "embree_build.h"
+#include "ray_sets.h"
 
 namespace yat::bench {
 
 class EmbreeScene {
  public:
-  enum class Quality { kMedium, kHigh };
-  EmbreeScene(const BenchScene& scene, Quality quality);
+  EmbreeScene(const BenchScene& scene, EmbreeQuality quality);
   ~EmbreeScene();
   static std::vector<std::string> variants();
   /// Seconds for the trace calls alone; rays are put into Embree's form outside. Fills hits

@@ -1,0 +1,108 @@
+// The benchmark programs as people run them, on their smallest cases.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "run_program.h"
+
+namespace yat {
+namespace {
+
+using Json = nlohmann::json;
+
+class Benches : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+    folder = std::filesystem::path(YAT_TEST_OUTPUT_DIR) / "benches" / test->name();
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+  }
+  ProgramResult bench(const std::string& name, std::vector<std::string> options) const {
+    options.insert(options.begin(), std::string(YAT_BENCH_DIR) + "/" + name);
+    return run_program(options, folder);
+  }
+  Json json(const std::string& name) const { return Json::parse(read_whole(folder / name)); }
+  std::filesystem::path folder;
+};
+
+/// A regular tetrahedron and a file for it.
+void write_tetrahedron(const std::filesystem::path& path) {
+  write_whole(path,
+              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+              "property float z\nelement face 4\nproperty list uchar int vertex_indices\n"
+              "end_header\n1 1 1\n1 -1 -1\n-1 1 -1\n-1 -1 1\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n");
+}
+
+TEST_F(Benches, BuildTableHoldsWhatWasBuilt) {
+  write_tetrahedron(folder / "mesh.ply");
+  const ProgramResult result =
+      bench("bench_build", {"--json", "build.json", "--sizes", "8000", "--scenes", "hall,sphere",
+                            "--threads", "1,2", "--repetitions", "2", "mesh.ply"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json report = json("build.json");
+  EXPECT_EQ(report["program"], "bench_build");
+  ASSERT_EQ(report["rows"].size(), 6u);
+  const size_t builders = report.contains("embree") ? 3 : 1;
+  for (const Json& row : report["rows"]) {
+    EXPECT_GE(row["references"], row["triangles"]);
+    EXPECT_GT(row["sah_cost"], 0);
+    ASSERT_EQ(row["builders"].size(), builders);
+    for (const Json& builder : row["builders"]) {
+      EXPECT_EQ(builder["wall"].size(), 2u);
+      EXPECT_GT(builder["bytes"], 0);
+    }
+  }
+  EXPECT_EQ(report["rows"][0]["triangles"], 16);  // A tetrahedron and its room.
+  // The tree is the same for any number of threads.
+  EXPECT_EQ(report["rows"][2]["sah_cost"], report["rows"][3]["sah_cost"]);
+  EXPECT_NEAR(double(report["rows"][2]["triangles"]), 8000, 400);
+}
+
+TEST_F(Benches, BuildAsGoogleBenchmark) {
+  const ProgramResult result = bench(
+      "bench_build",
+      {"--benchmark_min_time=0.001", "--sizes", "5000", "--scenes", "sphere", "--threads", "1"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("build/sphere:5000/threads:1"), std::string::npos) << result.out;
+}
+
+TEST_F(Benches, BuildSaysWhatIsWrong) {
+  ProgramResult result = bench("bench_build", {"--table", "--sizes", "12"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err,
+            "bench_build: scene \"hall:12\": give a count of triangles from 5000 to 20000000\n");
+  result = bench("bench_build", {"--table", "--sizes", "0", "none.ply"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.err.find("none.ply"), std::string::npos) << result.err;
+  result = bench("bench_build", {"--tree", "oak"});
+  EXPECT_EQ(result.code, 2);
+}
+
+TEST_F(Benches, Kernels) {
+  const ProgramResult result =
+      bench("bench_kernels", {"--benchmark_filter=draw/.*", "--benchmark_min_time=0.001"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("draw/"), std::string::npos) << result.out;
+}
+
+TEST_F(Benches, Render) {
+  const ProgramResult result =
+      bench("bench_render",
+            {"--benchmark_filter=cornell-box/render/threads:1", "--benchmark_min_time=0.001"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("Mrays/s"), std::string::npos) << result.out;
+}
+
+TEST_F(Benches, Traversal) {
+  const ProgramResult result =
+      bench("bench_traversal",
+            {"--benchmark_filter=cornell/camera/.*/8192", "--benchmark_min_time=0.001"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("cornell/camera/"), std::string::npos) << result.out;
+}
+
+}  // namespace
+}  // namespace yat
