@@ -1,209 +1,150 @@
-// Traversal alone: recorded rays through every instruction set's kernels, per batch size.
+// Traversal alone: recorded rays through the kernels, and through Embree's variants.
 //
-//   bench_traversal [--benchmark_...] [mesh.ply ...]        Google Benchmark over all sets
-//   bench_traversal --table [mesh.ply ...]                  one table, interleaved with Embree
+//   bench_traversal [--benchmark_...] [options] [mesh.ply ...]       Google Benchmark, yat alone
+//   bench_traversal --table [--json FILE] [options] [mesh.ply ...]   a table, in turn with Embree
 //
-// The table times each kernel and each Embree variant in turn, five rounds, and keeps the best of
-// each: frequency changes then hit all alike. Embree's best is over calls (single rays, packets,
-// streams, coherent and not) and both build qualities. It also counts rays whose answers differ.
+// Without scenes: the Cornell box and a displaced sphere of 70 thousand triangles. The table traces
+// each set by each kernel and each variant of Embree (single rays, packets of 8 and 16, streams;
+// coherent and incoherent; MEDIUM and HIGH builds) in turn, several rounds, and shows medians of
+// the thread's processor time. Embree gets its rays ready-made in its own form; yat reads columns
+// and writes columns. Answers are compared; where they differ beyond ties, double precision over
+// all triangles says who is right, and where yat is wrong the program ends with 1.
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <cmath>
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
-#include <memory>
 #include <string>
 
+#include "base/error.h"
 #include "kernels/dispatch.h"
-#include "measure.h"
-#include "ray_sets.h"
-#include "scene/tree_build.h"
+#include "traversal_table.h"
 #if defined(YAT_WITH_EMBREE)
-#include "traversal_embree.h"
+#include "embree_build.h"
 #endif
 
 namespace yat::bench {
 namespace {
 
-constexpr uint32_t kBatch = 8192;
-
-struct Kernel {
-  const KernelTable* table;
-  Tree tree;
+struct Options {
+  std::vector<std::string> meshes, open_meshes, scenes;
+  uint32_t resolution = 512;
+  bool table = false, no_embree = false;
+  std::string json;
+  TableOptions traced;
 };
-
-struct Prepared {
-  BenchScene scene;
-  std::vector<Kernel> kernels;
-  std::vector<RaySet> sets;
-};
-
-Prepared prepare(BenchScene scene) {
-  Prepared out{std::move(scene), {}, {}};
-  ThreadPool pool;
-  for (const IsaEntry& entry : built_isas())
-    if (entry.here)
-      out.kernels.push_back(
-          {entry.table(), build_tree(out.scene.rows.view(), {},
-                                     {std::max(4u, entry.table()->lanes), false}, pool)});
-  const Kernel& best = out.kernels.back();
-  out.sets = record_rays(out.scene, *best.table, best.tree.view, 512, 512);
-  return out;
-}
-
-/// Columns of a set, cut into batches.
-struct Batches {
-  Table<Ray> rays;
-  Table<ShadowRay> shadow_rays;
-  Table<Hit> hits;
-  AlignedArray<uint32_t> occluded;
-  AlignedArray<std::byte> scratch;
-  uint32_t n, batch;
-
-  Batches(const Kernel& kernel, const RaySet& set, uint32_t batch_rows)
-      : n(uint32_t(set.rays.size())), batch(batch_rows) {
-    scratch.resize(kernel.table->traversal_scratch_bytes(kernel.tree.view, batch));
-    if (set.shadow) {
-      shadow_rays.resize(n);
-      occluded.resize(n);
-      for (uint32_t i = 0; i < n; ++i) {
-        const Ray<Value>& r = set.rays[i];
-        shadow_rays.set(i, {r.org_x, r.org_y, r.org_z, r.dir_x, r.dir_y, r.dir_z, 0, 0, 0, i});
-      }
-    } else {
-      rays.resize(n);
-      hits.resize(n);
-      for (uint32_t i = 0; i < n; ++i) rays.set(i, set.rays[i]);
-    }
-  }
-  LaneCount trace(const Kernel& kernel, bool shadow) {
-    LaneCount sum;
-    for (uint32_t i = 0; i < n; i += batch) {
-      const uint32_t m = std::min(batch, n - i);
-      const LaneCount c =
-          shadow ? kernel.table->intersect_shadow[0](
-                       kernel.tree.view, columns_from(shadow_rays.view(), i), occluded.data() + i,
-                       m, {scratch.data(), scratch.size()})
-                 : kernel.table->intersect_closest(kernel.tree.view, columns_from(rays.view(), i),
-                                                   columns_from(hits.columns(), i), m,
-                                                   {scratch.data(), scratch.size()});
-      sum.rows += c.rows;
-      sum.steps += c.steps;
-    }
-    return sum;
-  }
-};
-
-void print_table(const Prepared& p) {
-  const TreeStatistics& s = p.kernels.back().tree.statistics;
-  std::printf(
-      "\n%s: %llu triangles, build %.3f s, %llu nodes, %llu leaves, %llu blocks (%.0f %% full), "
-      "%.2f references per triangle, depth %u, SAH %.2f, %.1f MB\n",
-      p.scene.name.c_str(), static_cast<unsigned long long>(s.triangles), s.build_seconds,
-      static_cast<unsigned long long>(s.nodes), static_cast<unsigned long long>(s.leaves),
-      static_cast<unsigned long long>(s.blocks), 100 * s.block_fill,
-      double(s.references) / double(s.triangles), s.max_depth, s.sah_cost,
-      double(p.kernels.back().tree.bytes()) / 1e6);
-  std::printf("%-10s %9s", "rays", "n");
-  for (const Kernel& k : p.kernels) std::printf(" %9s ns/ray lanes", k.table->isa);
-#if defined(YAT_WITH_EMBREE)
-  std::printf("   Embree  ratio best (variant), differing\n");
-  const EmbreeScene embree[2] = {{p.scene, EmbreeQuality::kMedium},
-                                 {p.scene, EmbreeQuality::kHigh}};
-  const std::vector<std::string> variants = EmbreeScene::variants();
-#else
-  std::printf("   (no Embree here)\n");
-#endif
-  for (const RaySet& set : p.sets) {
-    std::vector<std::unique_ptr<Batches>> batches;
-    for (const Kernel& k : p.kernels) batches.push_back(std::make_unique<Batches>(k, set, kBatch));
-    std::vector<double> best(p.kernels.size(), HUGE_VAL), lanes(p.kernels.size());
-    const double n = double(set.rays.size());
-#if defined(YAT_WITH_EMBREE)
-    double best_embree = HUGE_VAL;
-    std::string best_variant;
-    std::vector<Hit<Value>> theirs;
-#endif
-    for (int round = 0; round < 5; ++round) {
-      for (size_t k = 0; k < p.kernels.size(); ++k) {
-        const double start = thread_seconds();
-        const LaneCount count = batches[k]->trace(p.kernels[k], set.shadow);
-        const double t = thread_seconds() - start;
-        best[k] = std::min(best[k], t);
-        lanes[k] = double(count.rows) / (double(count.steps) * p.kernels[k].table->lanes);
-      }
-#if defined(YAT_WITH_EMBREE)
-      for (uint32_t v = 0; v < variants.size(); ++v)
-        for (int quality = 0; quality < 2; ++quality) {
-          const double t = embree[quality].trace(v, set, theirs);
-          if (t < best_embree) {
-            best_embree = t;
-            best_variant = variants[v] + (quality ? ", high" : ", medium");
-          }
-        }
-#endif
-    }
-    std::printf("%-10s %9zu", set.name.c_str(), set.rays.size());
-    for (size_t k = 0; k < best.size(); ++k)
-      std::printf(" %6.1fM/s %6.1f  %3.0f%%", n / best[k] * 1e-6, best[k] / n * 1e9,
-                  100 * lanes[k]);
-#if defined(YAT_WITH_EMBREE)
-    embree[0].trace(0, set, theirs);
-    uint32_t differing = 0;
-    for (uint32_t i = 0; i < set.rays.size(); ++i) {
-      if (set.shadow) {
-        differing += (batches.back()->occluded[i] != 0) != (theirs[i].prim != kNone);
-      } else {
-        const Hit<Value> ours = batches.back()->hits.row(i);
-        differing += (ours.prim == kNone) != (theirs[i].prim == kNone) ||
-                     (ours.prim != kNone && std::abs(ours.t - theirs[i].t) > 1e-4f * ours.t);
-      }
-    }
-    std::printf("  %6.1fM/s %5.2f (%s) %u", n / best_embree * 1e-6, best_embree / best.back(),
-                best_variant.c_str(), differing);
-#endif
-    std::printf("\n");
-    std::fflush(stdout);
-  }
-}
 
 void register_all(const Prepared& p) {
   for (const RaySet& set : p.sets)
-    for (const Kernel& kernel : p.kernels)
-      for (const uint32_t batch : {1024u, 4096u, 8192u, 16384u})
-        benchmark::RegisterBenchmark(
-            (p.scene.name + "/" + set.name + "/" + kernel.table->isa + "/" + std::to_string(batch))
-                .c_str(),
-            [&kernel, &set, batch](benchmark::State& state) {
-              Batches batches(kernel, set, batch);
-              LaneCount count;
-              for (auto _ : state) count = batches.trace(kernel, set.shadow);
-              state.SetItemsProcessed(int64_t(state.iterations()) * batches.n);
+    for (const Config& config : p.configs)
+      benchmark::RegisterBenchmark(
+          (p.scene.name + "/" + set.name + "/" + config.name()).c_str(),
+          [&config, &set](benchmark::State& state) {
+            TracedSet traced(config, set);
+            TraceTime time;
+            for (auto _ : state) time = traced.trace();
+            state.SetItemsProcessed(int64_t(state.iterations()) * traced.rows());
+            if (time.lanes.steps)
               state.counters["lanes"] =
-                  double(count.rows) / (double(count.steps) * kernel.table->lanes);
-            });
+                  double(time.lanes.rows) / (double(time.lanes.steps) * config.table->lanes);
+          });
+}
+
+/// Calls f(scene) for every scene asked for.
+template <class F>
+void for_each_scene(const Options& options, F&& f) {
+  for (const std::string& name : options.scenes) f(generated_scene(name));
+  for (const std::string& mesh : options.meshes) f(mesh_in_room(mesh));
+  for (const std::string& mesh : options.open_meshes) f(mesh_as_it_is(mesh));
+}
+
+int run_tables(const Options& options) {
+  Json report = origin("bench_traversal");
+  report["resolution"] = options.resolution;
+  report["repetitions"] = options.traced.repetitions;
+#if defined(YAT_WITH_EMBREE)
+  if (options.traced.embree) report["embree"] = embree_version();
+#endif
+  report["scenes"] = Json::array();
+  uint64_t wrong = 0;
+  for_each_scene(options, [&](BenchScene scene) {
+    const auto prepared = prepare(std::move(scene), {}, options.resolution, options.traced);
+    report["scenes"].push_back(run_table(*prepared, options.traced, wrong));
+  });
+  print_summary(report["scenes"]);
+  if (!options.json.empty()) write_json(options.json, report);
+  if (wrong == 0) return 0;
+  std::fprintf(stderr, "bench_traversal: %llu answers of yat are wrong: see the rows marked ***\n",
+               static_cast<unsigned long long>(wrong));
+  return 1;
+}
+
+void describe(CLI::App& app, Options& options) {
+  app.footer("--benchmark_... options go to Google Benchmark.");
+  app.option_defaults()->always_capture_default();
+  const auto list = [](CLI::Option* option) {
+    return option->delimiter(',')->allow_extra_args(false);
+  };
+  app.add_flag("--table", options.table, "One table, in turn with Embree, instead of benchmarks");
+  app.add_option("--json", options.json, "Write the table's measurements here (implies --table)");
+  list(app.add_option("--scenes", options.scenes,
+                      "Generated scenes: cornell, sphere[:triangles], hall[:triangles]"));
+  app.add_option("--open", options.open_meshes,
+                 "A PLY file as it is, seen from its middle (repeatable)")
+      ->allow_extra_args(false);
+  app.add_option("--resolution", options.resolution, "Camera rays: this, squared")
+      ->check(CLI::Range(8, 4096));
+  list(app.add_option("--isa", options.traced.isas,
+                      "Instruction sets (default: YAT_ISA, else the best here)"));
+  list(app.add_option("--tree", options.traced.trees, "Kinds of tree: auto, kd"))
+      ->check(CLI::IsMember({"auto", "kd"}));
+  list(app.add_option("--kernels", options.traced.kernels, "Kernels: stream (default: all)"));
+  list(app.add_option("--streams", options.traced.streams,
+                      "Rows of a stream; 0: 8192 camera and shadow rays, 32768 to 65536 others"))
+      ->check(CLI::Range(0, 1 << 22));
+  list(app.add_option("--threads", options.traced.threads,
+                      "Trace on so many threads too, and show the gain over one"))
+      ->check(CLI::Range(1, 1024));
+  app.add_option("--repetitions", options.traced.repetitions, "Rounds, of which medians are shown")
+      ->check(CLI::Range(1, 1000));
+  app.add_flag("--no-embree", options.no_embree, "yat alone");
+  app.add_option("meshes", options.meshes, "PLY files, each placed in a closed room");
 }
 
 int run(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  bool table = false;
-  std::vector<Prepared> scenes;
-  scenes.push_back(prepare(cornell_box()));
-  scenes.push_back(prepare(rough_sphere(70000)));
-  for (int i = 1; i < argc; ++i) {
-    if (std::string(argv[i]) == "--table") {
-      table = true;
+  // Options of the benchmark library are its own; all others are ours.
+  std::vector<char*> library = {argv[0]};
+  std::vector<const char*> own = {argv[0]};
+  for (int i = 1; i < argc; ++i)
+    if (std::string_view(argv[i]).starts_with("--benchmark_")) {
+      library.push_back(argv[i]);
     } else {
-      scenes.push_back(prepare(mesh_in_room(argv[i])));
+      own.push_back(argv[i]);
     }
+  Options options;
+  options.traced.trees = {"auto"};
+  options.traced.streams = {0};
+  CLI::App app("Traversal alone: recorded rays through the kernels, beside Embree's variants.");
+  describe(app, options);
+  try {
+    app.parse(int(own.size()), own.data());
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
   }
-  if (table) {
-    for (const Prepared& p : scenes) print_table(p);
-    return 0;
-  }
-  for (const Prepared& p : scenes) register_all(p);
+  options.traced.embree = !options.no_embree;
+  for (uint32_t& stream : options.traced.streams)
+    stream = (stream + kRowPad - 1) / kRowPad * kRowPad;
+  if (options.scenes.empty() && options.meshes.empty() && options.open_meshes.empty())
+    options.scenes = {"cornell", "sphere"};
+  if (options.table || !options.json.empty()) return run_tables(options);
+  int library_count = int(library.size());
+  benchmark::Initialize(&library_count, library.data());
+  std::vector<std::unique_ptr<Prepared>> scenes;
+  for_each_scene(options, [&](BenchScene scene) {
+    scenes.push_back(prepare(std::move(scene), {}, options.resolution, options.traced));
+    register_all(*scenes.back());
+  });
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }
@@ -214,6 +155,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return yat::bench::run(argc, argv);
+  } catch (const yat::UsageError& error) {
+    std::fprintf(stderr, "bench_traversal: %s\n", error.what());
+    return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_traversal: %s\n", error.what());
     return 1;

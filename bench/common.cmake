@@ -5,11 +5,11 @@ if(NOT embree_FOUND)
   find_package(embree 3 QUIET)
 endif()
 
-add_library(yat_bench STATIC bench_scenes.cpp measure.cpp ray_sets.cpp)
+add_library(yat_bench STATIC bench_scenes.cpp measure.cpp ray_sets.cpp judge.cpp traced_set.cpp)
 target_link_libraries(yat_bench PUBLIC yat_app nlohmann_json::nlohmann_json)
 target_include_directories(yat_bench PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 if(embree_FOUND)
-  target_sources(yat_bench PRIVATE embree_build.cpp)
+  target_sources(yat_bench PRIVATE embree_build.cpp embree_trace.cpp)
   target_link_libraries(yat_bench PUBLIC embree)
   target_compile_definitions(yat_bench PUBLIC YAT_WITH_EMBREE=1
                                               YAT_EMBREE_MAJOR=${embree_VERSION_MAJOR})

@@ -1,6 +1,6 @@
 # Every benchmark starts and does a minimal case; what it writes is read back. No time is asserted.
 if(YAT_BUILD_BENCH)
-  yat_test(benches LABELS fast LIBS nlohmann_json::nlohmann_json SOURCES test_benches.cpp)
+  yat_test(benches LABELS fast LIBS yat_bench SOURCES test_benches.cpp test_judge.cpp)
   add_dependencies(test_benches bench_build bench_kernels bench_render bench_traversal)
   target_compile_definitions(test_benches PRIVATE YAT_BENCH_DIR="${PROJECT_BINARY_DIR}/bin")
 endif()

@@ -96,12 +96,56 @@ TEST_F(Benches, Render) {
   EXPECT_NE(result.out.find("Mrays/s"), std::string::npos) << result.out;
 }
 
-TEST_F(Benches, Traversal) {
+TEST_F(Benches, TraversalAsGoogleBenchmark) {
   const ProgramResult result =
-      bench("bench_traversal",
-            {"--benchmark_filter=cornell/camera/.*/8192", "--benchmark_min_time=0.001"});
+      bench("bench_traversal", {"--scenes", "cornell", "--resolution", "16",
+                                "--benchmark_filter=camera", "--benchmark_min_time=0.001"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("cornell/camera/"), std::string::npos) << result.out;
+}
+
+TEST_F(Benches, TraversalTableComparesAnswers) {
+  write_tetrahedron(folder / "mesh.ply");
+  const ProgramResult result =
+      bench("bench_traversal", {"--json", "traversal.json", "--scenes", "cornell", "--open",
+                                "mesh.ply", "--resolution", "40", "--tree", "auto,kd", "--streams",
+                                "0,32", "--threads", "2", "--repetitions", "2", "mesh.ply"});
+  ASSERT_EQ(result.code, 0) << result.out << result.err;
+  const Json report = json("traversal.json");
+  EXPECT_EQ(report["program"], "bench_traversal");
+  ASSERT_EQ(report["scenes"].size(), 3u);
+  const bool embree = report.contains("embree");
+  for (const Json& scene : report["scenes"]) {
+    ASSERT_GE(scene["rows"].size(), 2u);
+    EXPECT_EQ(scene["rows"][0]["set"], "camera");
+    EXPECT_EQ(scene["rows"][0]["rays"], 1600);
+    EXPECT_EQ(scene["path_mix"].size(), 4u);
+    for (const Json& row : scene["rows"]) {
+      ASSERT_EQ(row["yat"].size(), 4u);
+      for (const Json& mine : row["yat"]) {
+        EXPECT_EQ(mine["seconds"].size(), 2u);
+        EXPECT_EQ(mine["threads"][0]["threads"], 2);
+        ASSERT_EQ(mine.contains("ratio"), embree);
+        if (embree) {
+          EXPECT_EQ(mine["differences"]["yat_wrong"], 0);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(report["scenes"][1]["scene"], "mesh");
+  EXPECT_EQ(report["scenes"][0]["rows"].size(), 7u);  // All sets: the box is not closed in front.
+}
+
+TEST_F(Benches, TraversalSaysWhatIsWrong) {
+  EXPECT_EQ(bench("bench_traversal", {"--table", "--scenes", "nave"}).err,
+            "bench_traversal: scene \"nave\": not one of cornell, sphere[:triangles], "
+            "hall[:triangles]\n");
+  ProgramResult result = bench("bench_traversal", {"--table", "--kernels", "best"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, "bench_traversal: no such kernel: see --help for their names\n");
+  result = bench("bench_traversal", {"--table", "none.ply"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.err.find("none.ply"), std::string::npos) << result.err;
 }
 
 }  // namespace

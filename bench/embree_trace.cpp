@@ -1,6 +1,6 @@
+#include "embree_trace.h"
 #include "embree_device.h"
 #include "measure.h"
-#include "traversal_embree.h"
 
 namespace yat::bench {
 

@@ -1,0 +1,74 @@
+#pragma once
+// A set's rays in columns, traced by one kernel over one tree in streams.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernels/table.h"
+#include "ray_sets.h"
+#include "scene/tree_build.h"
+
+namespace yat::bench {
+
+/// A way to trace rays; both functions are as in KernelTable.
+struct TraceKernel {
+  std::string name;  ///< "stream"
+  size_t (*scratch_bytes)(const TreeView&, uint32_t max_rays) noexcept;
+  LaneCount (*closest)(const TreeView&, const Ray<ConstColumn>&, const Hit<Column>&, uint32_t n,
+                       const Scratch&) noexcept;
+  LaneCount (*shadow)(const TreeView&, const ShadowRay<ConstColumn>&, uint32_t* occluded,
+                      uint32_t n, const Scratch&) noexcept;
+};
+
+/// Everything that traces rays in a table.
+std::vector<TraceKernel> trace_kernels(const KernelTable& table);
+
+/// What is measured: a kernel of an instruction set over a kind of tree, in streams of so many
+/// rows.
+struct Config {
+  const KernelTable* table = nullptr;
+  TraceKernel kernel;
+  std::string tree_kind;  ///< "auto" or "kd"
+  const Tree* tree = nullptr;
+  uint32_t stream = 0;  ///< rows; 0: as suits the set, stream_rows()
+  std::string name() const;
+};
+
+/// Rows of a stream by kind of ray: longer lists for rays that go all ways.
+uint32_t stream_rows(const RaySet& set);
+
+/// Time of one trace of a whole set [s].
+struct TraceTime {
+  double cpu = 0;   ///< processor time, of all threads
+  double wall = 0;  ///< time that passed
+  LaneCount lanes;
+};
+
+class TracedSet {
+ public:
+  TracedSet(const Config& config, const RaySet& set);
+
+  /// All rays on this thread.
+  TraceTime trace();
+  /// All rays on `threads` threads, which take the streams as they come.
+  TraceTime trace_on(uint32_t threads);
+
+  /// Answers of the last trace. A shadow ray: prim = 0 where it is stopped, else kNone.
+  Hit<Value> hit(uint32_t row) const;
+  uint32_t rows() const { return n_; }
+
+ private:
+  LaneCount trace_stream(uint32_t first, const Scratch& scratch);
+
+  Config config_;
+  bool shadow_;
+  uint32_t n_, stream_;
+  Table<Ray> rays_;
+  Table<ShadowRay> shadow_rays_;
+  Table<Hit> hits_;
+  AlignedArray<uint32_t> occluded_;
+  std::vector<AlignedArray<std::byte>> scratch_;  ///< one per thread
+};
+
+}  // namespace yat::bench
