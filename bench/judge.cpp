@@ -19,45 +19,65 @@ uint32_t ulps_between(float a, float b) {
   return uint32_t(x > y ? int64_t(x) - y : int64_t(y) - x);
 }
 
+/// A ray against one triangle in double precision.
+struct Meeting {
+  double inside = -1e300;  ///< distance [m] of the line from the nearest edge, negative outside
+  double slack = 0;        ///< by which rounding may move it [m]
+  double t = 0, t_slack = 0;
+  bool possible() const { return inside >= -slack; }
+  bool certain() const { return inside > slack; }
+  bool near(double at) const { return t - t_slack <= at && at <= t + t_slack; }
+};
+
+Meeting meet(const BenchScene& scene, uint32_t prim, const Ray<Value>& ray) {
+  const dvec3 org{ray.org_x, ray.org_y, ray.org_z}, dir{ray.dir_x, ray.dir_y, ray.dir_z};
+  const float* const c = scene.corners.data() + size_t(prim) * 9;
+  const dvec3 v[3] = {dvec3{c[0], c[1], c[2]} - org, dvec3{c[3], c[4], c[5]} - org,
+                      dvec3{c[6], c[7], c[8]} - org};
+  const dvec3 normal = glm::cross(v[1] - v[0], v[2] - v[0]);
+  const double facing = glm::dot(normal, dir);
+  Meeting out;
+  if (facing == 0) return out;
+  out.slack = kRounding * std::max({glm::length(v[0]), glm::length(v[1]), glm::length(v[2])});
+  out.inside = 1e300;
+  for (int k = 0; k < 3; ++k) {
+    const dvec3 edge = v[(k + 1) % 3] - v[k];
+    const double volume = glm::dot(dir, glm::cross(v[k], edge)) * (facing > 0 ? 1 : -1);
+    const double across = glm::length(glm::cross(dir, edge));
+    out.inside =
+        std::min(out.inside, across > 0 ? volume / across : (volume >= 0 ? 1e300 : -1e300));
+    if (out.inside < -out.slack) return out;
+  }
+  out.t = glm::dot(normal, v[0]) / facing;
+  out.t_slack = out.slack * glm::length(normal) / std::abs(facing) + kRounding * std::abs(out.t);
+  return out;
+}
+
 enum class Verdict { kSame, kTie, kDiffers };
 
-Verdict verdict(const Hit<Value>& ours, const Hit<Value>& theirs, bool shadow) {
+Verdict verdict(const BenchScene& scene, const RaySet& set, uint32_t row, const Hit<Value>& ours,
+                const Hit<Value>& theirs) {
   if ((ours.prim == kNone) != (theirs.prim == kNone)) return Verdict::kDiffers;
-  if (ours.prim == kNone || shadow) return Verdict::kSame;
-  if (ours.prim == theirs.prim)
-    return std::abs(ours.t - theirs.t) <= 1e-5f * ours.t ? Verdict::kSame : Verdict::kDiffers;
-  return ulps_between(ours.t, theirs.t) <= 4 ? Verdict::kTie : Verdict::kDiffers;
+  if (ours.prim == kNone || set.shadow) return Verdict::kSame;
+  if (ours.prim != theirs.prim)
+    return ulps_between(ours.t, theirs.t) <= 4 ? Verdict::kTie : Verdict::kDiffers;
+  if (std::abs(ours.t - theirs.t) <= 1e-5f * ours.t) return Verdict::kSame;
+  const Meeting meeting = meet(scene, ours.prim, set.rays[row]);
+  return meeting.near(double(ours.t)) && meeting.near(double(theirs.t)) ? Verdict::kSame
+                                                                        : Verdict::kDiffers;
 }
 
 }  // namespace
 
 Judge::Judge(const BenchScene& scene, const Ray<Value>& ray, bool shadow)
     : shadow_(shadow), t_max_(shadow ? 1.0 : double(ray.t_max)) {
-  const dvec3 org{ray.org_x, ray.org_y, ray.org_z}, dir{ray.dir_x, ray.dir_y, ray.dir_z};
-  for (uint32_t i = 0; i < scene.triangles(); ++i) {
-    const float* const c = scene.corners.data() + size_t(i) * 9;
-    const dvec3 v[3] = {dvec3{c[0], c[1], c[2]} - org, dvec3{c[3], c[4], c[5]} - org,
-                        dvec3{c[6], c[7], c[8]} - org};
-    const dvec3 normal = glm::cross(v[1] - v[0], v[2] - v[0]);
-    const double facing = glm::dot(normal, dir);
-    if (facing == 0) continue;
-    const double reach = std::max({glm::length(v[0]), glm::length(v[1]), glm::length(v[2])});
-    const double slack = kRounding * reach;
-    // Distance of the line from each edge, positive inside.
-    double inside = 1e300;
-    for (int k = 0; k < 3; ++k) {
-      const dvec3 edge = v[(k + 1) % 3] - v[k];
-      const double volume = glm::dot(dir, glm::cross(v[k], edge)) * (facing > 0 ? 1 : -1);
-      const double across = glm::length(glm::cross(dir, edge));
-      inside = std::min(inside, across > 0 ? volume / across : (volume >= 0 ? 1e300 : -1e300));
-    }
-    if (inside < -slack) continue;
-    const double t = glm::dot(normal, v[0]) / facing;
-    const double t_slack = slack * glm::length(normal) / std::abs(facing) + kRounding * std::abs(t);
-    if (t + t_slack < 0 || t - t_slack > t_max_) continue;
-    possible_.push_back({t - t_slack, t + t_slack});
-    if (inside > slack && t - t_slack > 0 && t + t_slack < t_max_)
-      nearest_certain_ = std::min(nearest_certain_, t + t_slack);
+  for (uint32_t prim = 0; prim < scene.triangles(); ++prim) {
+    const Meeting m = meet(scene, prim, ray);
+    const double low = m.t - m.t_slack, high = m.t + m.t_slack;
+    if (!m.possible() || high < 0 || low > t_max_) continue;
+    possible_.push_back({low, high});
+    if (m.certain() && low > 0 && high < t_max_)
+      nearest_certain_ = std::min(nearest_certain_, high);
   }
 }
 
@@ -75,7 +95,7 @@ Differences compare(const BenchScene& scene, const RaySet& set, const std::vecto
   Differences out;
   uint64_t judged = 0;
   for (uint32_t i = 0; i < set.rays.size(); ++i) {
-    const Verdict v = verdict(ours[i], theirs[i], set.shadow);
+    const Verdict v = verdict(scene, set, i, ours[i], theirs[i]);
     out.ties += v == Verdict::kTie;
     if (v != Verdict::kDiffers) continue;
     out.hit_miss += (ours[i].prim == kNone) != (theirs[i].prim == kNone);
