@@ -284,6 +284,9 @@ int main(int argc, char** argv) {
   } catch (const yat::UsageError& error) {
     std::fprintf(stderr, "bench_build: %s\n", error.what());
     return 2;
+  } catch (const yat::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());  // The message names the file.
+    return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_build: %s\n", error.what());
     return 1;

@@ -1,7 +1,8 @@
 // Traversal alone: recorded rays through the kernels, and through Embree's variants.
 //
-//   bench_traversal [--benchmark_...] [options] [mesh.ply ...]       Google Benchmark, yat alone
-//   bench_traversal --table [--json FILE] [options] [mesh.ply ...]   a table, in turn with Embree
+//   bench_traversal [--benchmark_...] [options] [mesh.ply | scene.lxs ...]   Google Benchmark, yat
+//   alone bench_traversal --table [--json FILE] [options] [mesh.ply | scene.lxs ...]   a table, in
+//   turn with Embree
 //
 // Without scenes: the Cornell box and a displaced sphere of 70 thousand triangles. The table traces
 // each set by each kernel and each variant of Embree (single rays, packets of 8 and 16, streams;
@@ -19,6 +20,7 @@
 
 #include "base/error.h"
 #include "kernels/dispatch.h"
+#include "rays_file.h"
 #include "traversal_table.h"
 #if defined(YAT_WITH_EMBREE)
 #include "embree_build.h"
@@ -28,7 +30,7 @@ namespace yat::bench {
 namespace {
 
 struct Options {
-  std::vector<std::string> meshes, open_meshes, scenes;
+  std::vector<std::string> files, open_meshes, ray_files, scenes;
   uint32_t resolution = 512;
   bool table = false, no_embree = false;
   std::string json;
@@ -51,12 +53,28 @@ void register_all(const Prepared& p) {
           });
 }
 
-/// Calls f(scene) for every scene asked for.
+Recording record_file(const std::string& file) {
+  Diagnostics diagnostics([](Severity severity, std::string_view line) {
+    if (severity == Severity::kError) std::fprintf(stderr, "%.*s\n", int(line.size()), line.data());
+  });
+  return record_scene(file, best_kernels(), {}, diagnostics);
+}
+
+/// Calls f(prepared) for every scene asked for, one after the other.
 template <class F>
 void for_each_scene(const Options& options, F&& f) {
-  for (const std::string& name : options.scenes) f(generated_scene(name));
-  for (const std::string& mesh : options.meshes) f(mesh_in_room(mesh));
-  for (const std::string& mesh : options.open_meshes) f(mesh_as_it_is(mesh));
+  const auto with = [&](Recording recording) {
+    f(prepare(std::move(recording), options.resolution, options.traced));
+  };
+  for (const std::string& name : options.scenes) with({generated_scene(name), {}});
+  for (const std::string& file : options.files)
+    if (file.ends_with(".lxs")) {
+      with(record_file(file));
+    } else {
+      with({mesh_in_room(file), {}});
+    }
+  for (const std::string& mesh : options.open_meshes) with({mesh_as_it_is(mesh), {}});
+  for (const std::string& file : options.ray_files) with(read_rays(file));
 }
 
 int run_tables(const Options& options) {
@@ -68,8 +86,7 @@ int run_tables(const Options& options) {
 #endif
   report["scenes"] = Json::array();
   uint64_t wrong = 0;
-  for_each_scene(options, [&](BenchScene scene) {
-    const auto prepared = prepare(std::move(scene), {}, options.resolution, options.traced);
+  for_each_scene(options, [&](std::unique_ptr<Prepared> prepared) {
     report["scenes"].push_back(run_table(*prepared, options.traced, wrong));
   });
   print_summary(report["scenes"]);
@@ -109,7 +126,12 @@ void describe(CLI::App& app, Options& options) {
   app.add_option("--repetitions", options.traced.repetitions, "Rounds, of which medians are shown")
       ->check(CLI::Range(1, 1000));
   app.add_flag("--no-embree", options.no_embree, "yat alone");
-  app.add_option("meshes", options.meshes, "PLY files, each placed in a closed room");
+  app.add_option("--rays", options.ray_files, "A file made by record_rays (repeatable)")
+      ->allow_extra_args(false);
+  app.add_option(
+      "files", options.files,
+      "PLY files, each placed in a closed room, and .lxs scenes, recorded as record_rays "
+      "does");
 }
 
 int run(int argc, char** argv) {
@@ -135,14 +157,15 @@ int run(int argc, char** argv) {
   options.traced.embree = !options.no_embree;
   for (uint32_t& stream : options.traced.streams)
     stream = (stream + kRowPad - 1) / kRowPad * kRowPad;
-  if (options.scenes.empty() && options.meshes.empty() && options.open_meshes.empty())
+  if (options.scenes.empty() && options.files.empty() && options.open_meshes.empty() &&
+      options.ray_files.empty())
     options.scenes = {"cornell", "sphere"};
   if (options.table || !options.json.empty()) return run_tables(options);
   int library_count = int(library.size());
   benchmark::Initialize(&library_count, library.data());
   std::vector<std::unique_ptr<Prepared>> scenes;
-  for_each_scene(options, [&](BenchScene scene) {
-    scenes.push_back(prepare(std::move(scene), {}, options.resolution, options.traced));
+  for_each_scene(options, [&](std::unique_ptr<Prepared> prepared) {
+    scenes.push_back(std::move(prepared));
     register_all(*scenes.back());
   });
   benchmark::RunSpecifiedBenchmarks();
@@ -158,6 +181,9 @@ int main(int argc, char** argv) {
   } catch (const yat::UsageError& error) {
     std::fprintf(stderr, "bench_traversal: %s\n", error.what());
     return 2;
+  } catch (const yat::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());  // The message names the file.
+    return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_traversal: %s\n", error.what());
     return 1;

@@ -5,7 +5,7 @@ if(NOT embree_FOUND)
   find_package(embree 3 QUIET)
 endif()
 
-add_library(yat_bench STATIC bench_scenes.cpp measure.cpp ray_sets.cpp judge.cpp traced_set.cpp)
+add_library(yat_bench STATIC bench_scenes.cpp measure.cpp ray_sets.cpp judge.cpp traced_set.cpp record_scene.cpp rays_file.cpp)
 target_link_libraries(yat_bench PUBLIC yat_app nlohmann_json::nlohmann_json)
 target_include_directories(yat_bench PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 if(embree_FOUND)

@@ -55,16 +55,19 @@ Meeting meet(const BenchScene& scene, uint32_t prim, const Ray<Value>& ray) {
 
 enum class Verdict { kSame, kTie, kDiffers };
 
-Verdict verdict(const BenchScene& scene, const RaySet& set, uint32_t row, const Hit<Value>& ours,
-                const Hit<Value>& theirs) {
+/// Counts the same triangle at another distance as it finds it.
+Verdict verdict(const BenchScene& scene, const Ray<Value>& ray, bool shadow, const Hit<Value>& ours,
+                const Hit<Value>& theirs, Differences& out) {
   if ((ours.prim == kNone) != (theirs.prim == kNone)) return Verdict::kDiffers;
-  if (ours.prim == kNone || set.shadow) return Verdict::kSame;
+  if (ours.prim == kNone || shadow) return Verdict::kSame;
   if (ours.prim != theirs.prim)
     return ulps_between(ours.t, theirs.t) <= 4 ? Verdict::kTie : Verdict::kDiffers;
-  if (std::abs(ours.t - theirs.t) <= 1e-5f * ours.t) return Verdict::kSame;
-  const Meeting meeting = meet(scene, ours.prim, set.rays[row]);
-  return meeting.near(double(ours.t)) && meeting.near(double(theirs.t)) ? Verdict::kSame
-                                                                        : Verdict::kDiffers;
+  if (std::abs(ours.t - theirs.t) > 1e-5f * ours.t) {
+    const Meeting meeting = meet(scene, ours.prim, ray);
+    out.yat_t_off += !meeting.near(double(ours.t));
+    out.other_t_off += !meeting.near(double(theirs.t));
+  }
+  return Verdict::kSame;
 }
 
 }  // namespace
@@ -75,7 +78,7 @@ Judge::Judge(const BenchScene& scene, const Ray<Value>& ray, bool shadow)
     const Meeting m = meet(scene, prim, ray);
     const double low = m.t - m.t_slack, high = m.t + m.t_slack;
     if (!m.possible() || high < 0 || low > t_max_) continue;
-    possible_.push_back({low, high});
+    possible_.push_back({prim, low});
     if (m.certain() && low > 0 && high < t_max_)
       nearest_certain_ = std::min(nearest_certain_, high);
   }
@@ -84,10 +87,9 @@ Judge::Judge(const BenchScene& scene, const Ray<Value>& ray, bool shadow)
 bool Judge::right(const Hit<Value>& hit) const {
   if (hit.prim == kNone) return nearest_certain_ == 1e300;
   if (shadow_) return !possible_.empty();
-  const auto t = double(hit.t);
-  if (t > nearest_certain_) return false;
-  return std::any_of(possible_.begin(), possible_.end(),
-                     [&](const Interval& at) { return at.low <= t && t <= at.high; });
+  return std::any_of(possible_.begin(), possible_.end(), [&](const Possible& p) {
+    return p.prim == hit.prim && p.low <= nearest_certain_;
+  });
 }
 
 Differences compare(const BenchScene& scene, const RaySet& set, const std::vector<Hit<Value>>& ours,
@@ -95,7 +97,7 @@ Differences compare(const BenchScene& scene, const RaySet& set, const std::vecto
   Differences out;
   uint64_t judged = 0;
   for (uint32_t i = 0; i < set.rays.size(); ++i) {
-    const Verdict v = verdict(scene, set, i, ours[i], theirs[i]);
+    const Verdict v = verdict(scene, set.rays[i], set.shadow, ours[i], theirs[i], out);
     out.ties += v == Verdict::kTie;
     if (v != Verdict::kDiffers) continue;
     out.hit_miss += (ours[i].prim == kNone) != (theirs[i].prim == kNone);

@@ -12,22 +12,25 @@ namespace yat::bench {
 class Judge {
  public:
   Judge(const BenchScene& scene, const Ray<Value>& ray, bool shadow);
-  /// hit.prim: kNone for a miss; else hit.t is what counts (closest), or nothing (shadow).
+  /// Whether hit.prim (kNone: a miss) is what the ray meets first; of a shadow ray, whether it is
+  /// stopped. hit.t is not asked.
   bool right(const Hit<Value>& hit) const;
 
  private:
-  struct Interval {
-    double low, high;
+  struct Possible {
+    uint32_t prim;
+    double low;  ///< least t that rounding may give
   };
   bool shadow_;
   double t_max_;
-  std::vector<Interval> possible_;  ///< t of triangles that the ray, perhaps moved, meets
+  std::vector<Possible> possible_;  ///< triangles that the ray, perhaps moved, meets
   double nearest_certain_ = 1e300;  ///< no right hit is beyond; 1e300: a miss may be right
 };
 
 /// Differences between the answers of two programs to a set of rays.
 struct Differences {
-  uint64_t ties = 0;      ///< another triangle at the same distance, to 4 ulp
+  uint64_t ties = 0;                        ///< another triangle at the same distance, to 4 ulp
+  uint64_t yat_t_off = 0, other_t_off = 0;  ///< the same triangle, at a t beyond that rounding
   uint64_t rounding = 0;  ///< different, and both right: the ray goes along an edge or a surface
   uint64_t yat_wrong = 0, other_wrong = 0;
   uint64_t unjudged = 0;             ///< different, and not looked at: there were too many

@@ -37,14 +37,6 @@ struct TheirTiming : Timing {
   std::string variant, quality;
 };
 
-const KernelTable& best_kernels() {
-  const KernelTable* best = nullptr;
-  for (const IsaEntry& entry : built_isas())
-    if (entry.here) best = entry.table();
-  if (!best) throw Error("no kernels of this build run on this machine");
-  return *best;
-}
-
 TreeOptions tree_options(const KernelTable& table, const std::string& kind) {
   return {std::max(4u, table.lanes), kind == "kd"};
 }
@@ -69,8 +61,14 @@ std::vector<Hit<Value>> answers(const TracedSet& set) {
 }
 
 Json json_of(const Differences& d) {
-  return {{"ties", d.ties},           {"rounding", d.rounding},       {"hit_miss", d.hit_miss},
-          {"yat_wrong", d.yat_wrong}, {"other_wrong", d.other_wrong}, {"unjudged", d.unjudged}};
+  return {{"ties", d.ties},
+          {"rounding", d.rounding},
+          {"hit_miss", d.hit_miss},
+          {"yat_t_off", d.yat_t_off},
+          {"other_t_off", d.other_t_off},
+          {"yat_wrong", d.yat_wrong},
+          {"other_wrong", d.other_wrong},
+          {"unjudged", d.unjudged}};
 }
 
 Json json_of(const Config& config, const OurTiming& t, double rays) {
@@ -91,7 +89,8 @@ Json json_of(const Config& config, const OurTiming& t, double rays) {
 
 /// Loud, because such a row must not be: which rays, with all digits.
 void shout(const BenchScene& scene, const RaySet& set, const std::string& config,
-           const Differences& d) {
+           const Differences& d, const std::vector<Hit<Value>>& ours,
+           const std::vector<Hit<Value>>& theirs) {
   std::printf("*** %s, %s, %s: yat wrong on %llu rays, Embree on %llu, %llu not looked at\n",
               scene.name.c_str(), set.name.c_str(), config.c_str(),
               static_cast<unsigned long long>(d.yat_wrong),
@@ -99,9 +98,14 @@ void shout(const BenchScene& scene, const RaySet& set, const std::string& config
               static_cast<unsigned long long>(d.unjudged));
   for (const uint32_t row : d.wrong_rows) {
     const Ray<Value>& r = set.rays[row];
-    std::printf("***   row %u: from (%.9g %.9g %.9g) along (%.9g %.9g %.9g)\n", row,
-                double(r.org_x), double(r.org_y), double(r.org_z), double(r.dir_x), double(r.dir_y),
-                double(r.dir_z));
+    const auto text = [](const Hit<Value>& hit) {
+      return hit.prim == kNone ? std::string("nothing")
+                               : fmt::format("triangle {} at {:.9g}", hit.prim, hit.t);
+    };
+    std::printf("***   row %u: from (%.9g %.9g %.9g) along (%.9g %.9g %.9g): yat %s, Embree %s\n",
+                row, double(r.org_x), double(r.org_y), double(r.org_z), double(r.dir_x),
+                double(r.dir_y), double(r.dir_z), text(ours[row]).c_str(),
+                text(theirs[row]).c_str());
   }
 }
 
@@ -168,19 +172,19 @@ class SetRow {
       if (const TheirTiming* const theirs = best()) {
         const std::vector<Hit<Value>> hits = answers(*traced_[c]);
         const Differences d = compare(prepared_.scene, set_, hits, their_hits_);
-        std::printf("  %7.2f (%s, %s) %6.2f  %llu ties, %llu rounding, %llu hit/miss%s",
-                    n / theirs->middle() * 1e-6, theirs->variant.c_str(), theirs->quality.c_str(),
-                    theirs->middle() / ours_[c].middle(), static_cast<unsigned long long>(d.ties),
-                    static_cast<unsigned long long>(d.rounding),
-                    static_cast<unsigned long long>(d.hit_miss),
-                    d.yat_wrong + d.other_wrong + d.unjudged ? "  ***" : "");
+        fmt::print("  {:7.2f} {:<23} {:5.2f}  {} ties, {} rounding, {} hit/miss{}{}",
+                   n / theirs->middle() * 1e-6,
+                   fmt::format("({}, {})", theirs->variant, theirs->quality),
+                   theirs->middle() / ours_[c].middle(), d.ties, d.rounding, d.hit_miss,
+                   d.yat_t_off ? fmt::format(", {} t off", d.yat_t_off) : "",
+                   d.yat_wrong + d.other_wrong + d.unjudged ? "  ***" : "");
         mine["ratio"] = theirs->middle() / ours_[c].middle();
         mine["ratio_to_single"] = best_single()->middle() / ours_[c].middle();
         mine["differences"] = json_of(d);
         wrong += d.yat_wrong + d.unjudged;
         std::printf("\n");
         if (d.yat_wrong + d.other_wrong + d.unjudged)
-          shout(prepared_.scene, set_, config.name(), d);
+          shout(prepared_.scene, set_, config.name(), d, hits, their_hits_);
       } else {
         std::printf("\n");
       }
@@ -227,11 +231,19 @@ struct Mix {
 
 }  // namespace
 
-std::unique_ptr<Prepared> prepare(BenchScene scene, std::vector<RaySet> sets, uint32_t resolution,
+const KernelTable& best_kernels() {
+  const KernelTable* best = nullptr;
+  for (const IsaEntry& entry : built_isas())
+    if (entry.here) best = entry.table();
+  if (!best) throw Error("no kernels of this build run on this machine");
+  return *best;
+}
+
+std::unique_ptr<Prepared> prepare(Recording recording, uint32_t resolution,
                                   const TableOptions& options) {
   auto out = std::make_unique<Prepared>();
-  out->scene = std::move(scene);
-  out->sets = std::move(sets);
+  out->scene = std::move(recording.scene);
+  out->sets = std::move(recording.sets);
   ThreadPool pool;
   const auto tree_of = [&](const KernelTable& table, const std::string& kind) {
     return std::make_unique<Tree>(

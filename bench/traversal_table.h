@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "measure.h"
+#include "record_scene.h"
 #include "traced_set.h"
 
 namespace yat::bench {
@@ -31,8 +32,11 @@ struct Prepared {
 
 /// Builds the trees; records the sets from the scene's viewpoint if there are none. The rays are
 /// always recorded by the best kernels that run here, so that they are the same for all tables.
-std::unique_ptr<Prepared> prepare(BenchScene scene, std::vector<RaySet> sets, uint32_t resolution,
+std::unique_ptr<Prepared> prepare(Recording recording, uint32_t resolution,
                                   const TableOptions& options);
+
+/// The best that run here, whatever YAT_ISA says.
+const KernelTable& best_kernels();
 
 /// Prints one scene's table and returns it for the report. `wrong` counts answers of yat that are
 /// wrong or were not looked at.

@@ -136,6 +136,36 @@ TEST_F(Benches, TraversalTableComparesAnswers) {
   EXPECT_EQ(report["scenes"][0]["rows"].size(), 7u);  // All sets: the box is not closed in front.
 }
 
+TEST_F(Benches, RecordedRaysAreTraced) {
+  const std::string scene = YAT_SOURCE_DIR "/scenes/cornell-box/cornell-box.lxs";
+  ProgramResult result =
+      bench("record_rays", {scene, "-o", "box.rays", "--resolution", "40x24", "--spp", "1"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("camera           960 closest"), std::string::npos) << result.out;
+  result =
+      bench("bench_traversal", {"--json", "t.json", "--rays", "box.rays", "--repetitions", "1"});
+  ASSERT_EQ(result.code, 0) << result.out << result.err;
+  const Json report = json("t.json");
+  ASSERT_EQ(report["scenes"].size(), 1u);
+  EXPECT_EQ(report["scenes"][0]["scene"], "cornell-box");
+  EXPECT_EQ(report["scenes"][0]["rows"].size(), 7u);
+  EXPECT_EQ(report["scenes"][0]["rows"][0]["rays"], 960);
+}
+
+TEST_F(Benches, RecordRaysSaysWhatIsWrong) {
+  ProgramResult result = bench("record_rays", {"no.lxs", "-o", "x.rays"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(result.err, "no.lxs: error: cannot be read: No such file or directory\n");
+  result = bench("record_rays", {"no.lxs", "-o", "x.rays", "--resolution", "40"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err,
+            "record_rays: --resolution \"40\": give it as 640x360, each side 1 to 32768\n");
+  write_whole(folder / "bad.rays", "P6\n");
+  result = bench("bench_traversal", {"--table", "--rays", "bad.rays"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_TRUE(result.err.starts_with("bad.rays: error: is not a ray file")) << result.err;
+}
+
 TEST_F(Benches, TraversalSaysWhatIsWrong) {
   EXPECT_EQ(bench("bench_traversal", {"--table", "--scenes", "nave"}).err,
             "bench_traversal: scene \"nave\": not one of cornell, sphere[:triangles], "
