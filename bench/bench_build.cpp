@@ -45,7 +45,7 @@ struct Options {
 
 /// One builder's measurements of one scene on so many threads.
 struct Series {
-  std::string builder;  ///< "yat", "embree medium", "embree high"
+  std::string builder;  ///< "yat", "Embree medium", "Embree high"
   std::vector<double> wall, cpu;
   uint64_t bytes = 0;           ///< of the finished tree
   uint64_t peak_bytes = 0;      ///< resident above what was there before the build
@@ -70,7 +70,7 @@ Series build_yat(const BenchScene& scene, const TreeOptions& options, ThreadPool
 #if defined(YAT_WITH_EMBREE)
 Series build_embree(EmbreeBuilder& builder, EmbreeQuality quality) {
   const EmbreeBuilder::Result r = builder.build(quality);
-  return {std::string("embree ") + embree_quality_name(quality),
+  return {std::string("Embree ") + embree_quality_name(quality),
           {r.wall},
           {r.cpu},
           r.bytes,
