@@ -116,7 +116,9 @@ void describe(CLI::App& app, Options& options) {
                       "Instruction sets (default: YAT_ISA, else the best here)"));
   list(app.add_option("--tree", options.traced.trees, "Kinds of tree: auto, kd"))
       ->check(CLI::IsMember({"auto", "kd"}));
-  list(app.add_option("--kernels", options.traced.kernels, "Kernels: stream (default: all)"));
+  list(app.add_option("--kernels", options.traced.kernels,
+                      "stream; scalar: plain code over the same tree"))
+      ->check(CLI::IsMember({"stream", "scalar"}));
   list(app.add_option("--streams", options.traced.streams,
                       "Rows of a stream; 0: 8192 camera and shadow rays, 32768 to 65536 others"))
       ->check(CLI::Range(0, 1 << 22));
@@ -147,6 +149,7 @@ int run(int argc, char** argv) {
   Options options;
   options.traced.trees = {"auto"};
   options.traced.streams = {0};
+  options.traced.kernels = {"stream"};
   CLI::App app("Traversal alone: recorded rays through the kernels, beside Embree's variants.");
   describe(app, options);
   try {

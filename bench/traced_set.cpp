@@ -7,12 +7,14 @@
 #include <thread>
 
 #include "measure.h"
+#include "scalar_trace.h"
 
 namespace yat::bench {
 
 std::vector<TraceKernel> trace_kernels(const KernelTable& table) {
-  return {{"stream", table.traversal_scratch_bytes, table.intersect_closest,
-           table.intersect_shadow[0]}};
+  return {
+      {"stream", table.traversal_scratch_bytes, table.intersect_closest, table.intersect_shadow[0]},
+      {"scalar", scalar_scratch_bytes, scalar_closest, scalar_shadow}};
 }
 
 std::string Config::name() const {

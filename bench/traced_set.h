@@ -13,7 +13,7 @@ namespace yat::bench {
 
 /// A way to trace rays; both functions are as in KernelTable.
 struct TraceKernel {
-  std::string name;  ///< "stream"
+  std::string name;
   size_t (*scratch_bytes)(const TreeView&, uint32_t max_rays) noexcept;
   LaneCount (*closest)(const TreeView&, const Ray<ConstColumn>&, const Hit<Column>&, uint32_t n,
                        const Scratch&) noexcept;
@@ -21,7 +21,7 @@ struct TraceKernel {
                       uint32_t n, const Scratch&) noexcept;
 };
 
-/// Everything that traces rays in a table.
+/// "stream", the kernels of a table, and "scalar", plain code over the same tree.
 std::vector<TraceKernel> trace_kernels(const KernelTable& table);
 
 /// What is measured: a kernel of an instruction set over a kind of tree, in streams of so many

@@ -42,14 +42,15 @@ class Report(unittest.TestCase):
     def test_traversal(self):
         text = self.report("traversal")
         # Median 0.05 s for a million rays; the best variant by its median is 0.06.
-        self.assertIn("| camera | 1,000,000 | 20.0 (1.20) | 10.0 (0.60) | 16.7 | 16 coherent, high |",
+        self.assertIn("| camera | 1,000,000 | 20.0 (1.20) | 10.0 (0.60) | 2.50 (0.15) | 16.7 | 16 coherent, high |",
                       text)
-        self.assertIn("| diffuse 1 | 500,000 | 5.00 (2.00) | 2.50 (1.00) | 2.50 | 1, medium |", text)
+        self.assertIn("| diffuse 1 | 500,000 | 5.00 (2.00) | 2.50 (1.00) | 0.625 (0.25) | 2.50 | 1, medium |", text)
         # (0.06 + 0.2) / (0.05 + 0.1), without mirror; 0.09 / 0.1; root of the product.
         self.assertIn("| avx512/stream/auto | 1.73 | 0.90 | **1.25** | 0.50 (box, mirror) |", text)
         self.assertIn("| box | avx512/stream/auto | 2 | 1.90 / 1.95 | 1.90 / 1.95 | 1.90 / 1.95 |",
                       text)
-        self.assertIn("| box | 5,000,000 | 14 | 4 | 0 | 2 | 0 | 0 | 0 | 0 |", text)
+        self.assertIn("| box | 7,500,000 | 14 | 4 | 0 | 2 | 0 | 0 | 0 | 0 |", text)
+        self.assertIn("| avx2/stream/auto | 4.00 | 4.00 | **4.00** |", text)
         self.assertIn("Test CPU, 2 cores, GNU 12.2.0, commit 0123456789ab", text)
         self.assertEqual(len(self.check_plots()), 1)
 

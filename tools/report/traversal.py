@@ -73,6 +73,31 @@ def _summary(data):
                          + ["geometric mean", "least row"], rows)
 
 
+def _seconds(scene, config):
+    """Of all rows but mirror."""
+    return sum(median(row["yat"][config]["seconds"]) for row in scene["rows"]
+               if row["set"] != "mirror")
+
+
+def _over_scalar(data):
+    """How much faster than the fastest config of plain code each other config is."""
+    configs = data["scenes"][0]["rows"][0]["yat"]
+    plain = [c for c, m in enumerate(configs) if m["kernel"] == "scalar"]
+    if not plain:
+        return []
+    rows = []
+    for c, mine in enumerate(configs):
+        if c in plain:
+            continue
+        best = [min(_seconds(s, p) for p in plain) / _seconds(s, c) for s in data["scenes"]]
+        rows.append([mine["config"]] + [f"{b:.2f}" for b in best]
+                    + [f"**{geometric_mean(best):.2f}**"])
+    lines = ["### Path mix against plain code", "",
+             "How much less time than the fastest scalar traversal (one ray, one box, one triangle "
+             "at a time).", ""]
+    return lines + table(["yat"] + [s["scene"] for s in data["scenes"]] + ["geometric mean"], rows)
+
+
 def _threads(data):
     """A row per scene, config and number of threads, a column per set."""
     sets = list(dict.fromkeys(r["set"] for s in data["scenes"] for r in s["rows"]))
@@ -136,6 +161,7 @@ def report(stem, data, plots):
         lines += [f"![ratios]({stem}-ratio.svg)", ""]
     for scene in data["scenes"]:
         lines += _scene(scene)
+    lines += _over_scalar(data)
     lines += _threads(data)
     if embree:
         lines += _differences(data)
