@@ -306,6 +306,10 @@ inline bool float_hit(const TriangleRow<Value>& tri, const Ray<Value>& ray, floa
   if (!((e0 >= 0 && e1 >= 0 && e2 >= 0) || (e0 <= 0 && e1 <= 0 && e2 <= 0))) return false;
   const float det = (e0 + e1) + e2;
   if (!(det != 0)) return false;
+  const auto one_sign = [](const float(&c)[3]) {
+    return std::signbit(c[0]) == std::signbit(c[1]) && std::signbit(c[1]) == std::signbit(c[2]);
+  };
+  if (one_sign(x) || one_sign(y)) return false;
   const float inverse = 1.f / det;
   u = e1 * inverse;
   v = e2 * inverse;

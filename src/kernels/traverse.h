@@ -273,14 +273,7 @@ YAT_INLINE LaneCount trace_stream(const TreeView& tree, const Columns& rays, uin
   stream.shift = reinterpret_cast<float*>(take(plan.words));
   stream.class_of_row = reinterpret_cast<uint32_t*>(take(plan.words));
   auto* const slots = reinterpret_cast<uint32_t*>(take(plan.words));
-  float extent = 0;
-  for (int a = 0; a < 3; ++a) {
-    const float low = tree.min[a] < 0 ? -tree.min[a] : tree.min[a];
-    const float high = tree.max[a] < 0 ? -tree.max[a] : tree.max[a];
-    extent = low > extent ? low : extent;
-    extent = high > extent ? high : extent;
-  }
-  sort_rays<A, Q>(tree, extent, rays, n, stream);
+  sort_rays<A, Q>(tree, extent_of(tree), rays, n, stream);
   write_records<A, Q>(rays, n, stream);
   LaneCount count;
   for (uint32_t octant = 0; octant < (Q == Query::kClosest ? 8 : 1); ++octant) {

@@ -34,6 +34,13 @@ struct ShearedVertex {
 
 /// The test of W pairs. `range(t)` says which distances count. False if surely no lane hits: a
 /// branch there pays, a second one on `hit` is too hard to predict.
+///
+/// Where a triangle is seen on its edge, all three edge functions may be lost to zero or to an ulp
+/// for a ray that runs along it far outside. Such a hit is not reported: along x and along y the
+/// sheared vertices must not all have one sign. What a box or a beam of rays cannot meet can then
+/// be told from coordinates alone (kernels/traverse_tile.h). Nothing is lost by it: of the
+/// triangles that a ray touches in a closed mesh, one is met by the ray moved by nothing towards
+/// negative x and y, and its vertices have both signs.
 template <class A, class Range>
 YAT_INLINE bool test_triangles(const ShearedVertex<A>& a, const ShearedVertex<A>& b,
                                const ShearedVertex<A>& c, const Float<A>& shear_z, Range&& range,
@@ -52,7 +59,11 @@ YAT_INLINE bool test_triangles(const ShearedVertex<A>& a, const ShearedVertex<A>
   out.u = e1 * inverse;
   out.v = e2 * inverse;
   out.t = ((w * a.z + out.u * b.z) + out.v * c.z) * shear_z;
-  out.hit = inside & (det != zero) & range(out.t);
+  const auto signs_differ = [](const Float<A>& p, const Float<A>& q, const Float<A>& r) {
+    return (as_uint<A>(p) ^ as_uint<A>(q)) | (as_uint<A>(q) ^ as_uint<A>(r));
+  };
+  const UInt<A> around = signs_differ(a.x, b.x, c.x) & signs_differ(a.y, b.y, c.y);
+  out.hit = inside & (det != zero) & negative<A>(around) & range(out.t);
   return true;
 }
 

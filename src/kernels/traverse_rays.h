@@ -96,12 +96,66 @@ YAT_INLINE Float<A> max_magnitude(const Float<A> (&v)[3]) {
   return xsimd::max(xsimd::abs(v[0]), xsimd::max(xsimd::abs(v[1]), xsimd::abs(v[2])));
 }
 
+/// The axis along which a ray moves most (the first of equals): lanes where it is x; where it is y,
+/// if it is not x.
+template <class A>
+struct MainAxis {
+  Mask<A> x, y;
+  YAT_INLINE explicit MainAxis(const Float<A> (&dir)[3]) {
+    const Float<A> ax = xsimd::abs(dir[0]), ay = xsimd::abs(dir[1]), az = xsimd::abs(dir[2]);
+    x = (ax >= ay) & (ax >= az);
+    y = ay >= az;
+  }
+  /// 0, 1 or 2.
+  YAT_INLINE UInt<A> number() const {
+    return select<A>(x, UInt<A>(0u), select<A>(y, UInt<A>(1u), UInt<A>(2u)));
+  }
+  /// Component `k` of a vector whose axes are rotated so that the third is the main one.
+  YAT_INLINE Float<A> rotated(const Float<A> (&v)[3], uint32_t k) const {
+    return select<A>(x, v[(k + 1) % 3], select<A>(y, v[(k + 2) % 3], v[k]));
+  }
+};
+
+/// A ray as the triangle test takes it.
+template <class A>
+struct ShearedRay {
+  Float<A> org[3], shear[3];
+  YAT_INLINE ShearedRay(const RawRays<A>& r, const MainAxis<A>& axis) {
+    for (uint32_t k = 0; k < 3; ++k) org[k] = axis.rotated(r.org, k);
+    shear[2] = Float<A>(1.f) / axis.rotated(r.dir, 2);
+    shear[0] = axis.rotated(r.dir, 0) * shear[2];
+    shear[1] = axis.rotated(r.dir, 1) * shear[2];
+  }
+};
+
+/// Lanes whose ray can hit anything: finite, with a direction, of positive length. NaN fails every
+/// comparison.
+template <class A>
+YAT_INLINE Mask<A> can_hit(const RawRays<A>& r) {
+  const Float<A> largest(3.402823466e38f), zero(0.f);
+  Mask<A> valid = (r.t_max > zero) & (max_magnitude<A>(r.dir) > zero);
+  for (int a = 0; a < 3; ++a)
+    valid = valid & (xsimd::abs(r.org[a]) <= largest) & (xsimd::abs(r.dir[a]) <= largest);
+  return valid;
+}
+
+/// Largest |coordinate| of the tree's bounds.
+YAT_INLINE float extent_of(const TreeView& tree) {
+  float extent = 0;
+  for (int a = 0; a < 3; ++a) {
+    const float low = tree.min[a] < 0 ? -tree.min[a] : tree.min[a];
+    const float high = tree.max[a] < 0 ? -tree.max[a] : tree.max[a];
+    extent = low > extent ? low : extent;
+    extent = high > extent ? high : extent;
+  }
+  return extent;
+}
+
 /// Classes of the rays of rows [first, first + n) and the slots that follow from them.
 template <class A, Query Q, class Columns>
 YAT_INLINE void sort_rays(const TreeView& tree, float extent, const Columns& rays, uint32_t n,
                           RayStream& stream) noexcept {
   constexpr uint32_t W = kLanes<A>;
-  constexpr float kLargest = 3.402823466e38f;
   constexpr uint32_t kLeftOut = kClasses;
   // Four counters per class: neighbouring rows are often of one class, and an addition to memory
   // must wait for the one before.
@@ -109,16 +163,8 @@ YAT_INLINE void sort_rays(const TreeView& tree, float extent, const Columns& ray
   stream.any_shift = false;
   for (uint32_t row = 0; row < n; row += W) {
     const RawRays<A> r = load_raw<A, Q>(rays, row);
-    const Float<A> largest(kLargest);
-    const Float<A> ax = xsimd::abs(r.dir[0]), ay = xsimd::abs(r.dir[1]), az = xsimd::abs(r.dir[2]);
-    // NaN fails every comparison.
-    Mask<A> valid = tail_mask<A>(row, n) & (r.t_max > Float<A>(0.f)) & (ax <= largest) &
-                    (ay <= largest) & (az <= largest) & (xsimd::abs(r.org[0]) <= largest) &
-                    (xsimd::abs(r.org[1]) <= largest) & (xsimd::abs(r.org[2]) <= largest) &
-                    (max_magnitude<A>(r.dir) > Float<A>(0.f));
-    const Mask<A> z_x = (ax >= ay) & (ax >= az);
-    const Mask<A> z_y = ay >= az;
-    UInt<A> cls = select<A>(z_x, UInt<A>(0u), select<A>(z_y, UInt<A>(1u), UInt<A>(2u)));
+    const Mask<A> valid = tail_mask<A>(row, n) & can_hit<A>(r);
+    UInt<A> cls = MainAxis<A>(r.dir).number();
     if constexpr (Q == Query::kClosest) {
       const Float<A> zero(0.f);
       cls = cls + select<A>(r.dir[0] < zero, UInt<A>(3u), UInt<A>(0u)) +
@@ -196,23 +242,15 @@ YAT_INLINE void write_records(const Columns& rays, uint32_t n, RayStream& stream
       inverse[a] = Float<A>(1.f) / d;
       offset[a] = -(r.org[a] * inverse[a]);
     }
-    const Float<A> ax = xsimd::abs(r.dir[0]), ay = xsimd::abs(r.dir[1]), az = xsimd::abs(r.dir[2]);
-    const Mask<A> z_x = (ax >= ay) & (ax >= az);
-    const Mask<A> z_y = ay >= az;
-    const auto rotated = [&](const Float<A>& if_x, const Float<A>& if_y, const Float<A>& if_z) {
-      return select<A>(z_x, if_x, select<A>(z_y, if_y, if_z));
-    };
-    const Float<A> shear_z = Float<A>(1.f) / rotated(r.dir[0], r.dir[1], r.dir[2]);
-    const Float<A> shear_x = rotated(r.dir[1], r.dir[2], r.dir[0]) * shear_z;
-    const Float<A> shear_y = rotated(r.dir[2], r.dir[0], r.dir[1]) * shear_z;
+    const ShearedRay<A> sheared(r, MainAxis<A>(r.dir));
     const Float<A> none = as_float<A>(UInt<A>(kNone));
     float* const to = stream.records;
     store_rows4<A>(Float<A>(0.f), Float<A>(0.f), inverse[0], inverse[1], to, slot, kRecordWords);
     store_rows4<A>(inverse[2], offset[0], offset[1], offset[2], to + 4, slot, kRecordWords);
-    store_rows4<A>(r.t_max, rotated(r.org[1], r.org[2], r.org[0]),
-                   rotated(r.org[2], r.org[0], r.org[1]), rotated(r.org[0], r.org[1], r.org[2]),
-                   to + 8, slot, kRecordWords);
-    store_rows4<A>(shear_x, shear_y, shear_z, none, to + 12, slot, kRecordWords);
+    store_rows4<A>(r.t_max, sheared.org[0], sheared.org[1], sheared.org[2], to + 8, slot,
+                   kRecordWords);
+    store_rows4<A>(sheared.shear[0], sheared.shear[1], sheared.shear[2], none, to + 12, slot,
+                   kRecordWords);
   }
   stream.records[size_t(left_out) * kRecordWords + kRecordT] = 0.f;  // Not occluded.
 }

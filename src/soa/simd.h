@@ -92,6 +92,12 @@ YAT_INLINE UInt<A> as_uint(const Float<A>& v) {
   return xsimd::bitwise_cast<uint32_t>(v);
 }
 
+/// Lanes whose highest bit is set.
+template <class A>
+YAT_INLINE Mask<A> negative(const UInt<A>& v) {
+  return mask_of<A>(xsimd::bitwise_cast<int32_t>(v) < Int<A>(0));
+}
+
 template <class A>
 YAT_INLINE Float<A> select(const Mask<A>& m, const Float<A>& a, const Float<A>& b) {
   return xsimd::select(m, a, b);
