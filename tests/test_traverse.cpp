@@ -31,7 +31,8 @@ class Traverse : public PerIsa {
     float extent = 0;
     for (int a = 0; a < 3; ++a)
       extent = std::max({extent, std::abs(tree.min[a]), std::abs(tree.max[a])});
-    return std::max({std::abs(ray.org_x), std::abs(ray.org_y), std::abs(ray.org_z)}) <= 2 * extent;
+    return std::max({std::abs(ray.org_x), std::abs(ray.org_y), std::abs(ray.org_z)}) <=
+           kFarExtents * extent;
   }
 
   void compare(const Mesh& mesh, const std::vector<Ray<Value>>& rays, const char* what) {

@@ -317,7 +317,7 @@ inline bool float_hit(const TriangleRow<Value>& tri, const Ray<Value>& ray, floa
   return true;
 }
 
-/// Every triangle, in float; (t, lower row) wins. For rays from within 2 extents of the mesh.
+/// Every triangle, in float; (t, lower row) wins. For rays from within kFarExtents.
 inline Hit<Value> brute_force(const Mesh& mesh, const Ray<Value>& ray) {
   Hit<Value> best{ray.t_max, 0, 0, kNone};
   for (uint32_t prim = 0; prim < mesh.list.size(); ++prim) {

@@ -173,7 +173,7 @@ YAT_INLINE void sort_rays(const TreeView& tree, float extent, const Columns& ray
     }
     cls = select<A>(valid, cls, UInt<A>(kLeftOut));
     store<A>(cls, stream.class_of_row, row);
-    const Mask<A> far = valid & (max_magnitude<A>(r.org) > Float<A>(2.f * extent));
+    const Mask<A> far = valid & (max_magnitude<A>(r.org) > Float<A>(kFarExtents * extent));
     if (any<A>(far)) {
       if (!stream.any_shift) {
         for (uint32_t i = 0; i < n + W; ++i) stream.shift[i] = 0.f;

@@ -68,6 +68,11 @@ struct alignas(64) TreeNode {
 };
 static_assert(sizeof(TreeNode) == 256);
 
+/// Rays whose origin has a coordinate beyond this many extents (the largest |coordinate| of the
+/// tree's bounds) start again nearer; those from within are traced as they are, and the boxes of
+/// the tree are padded for their rounding errors. Cameras that look at a whole scene are within.
+inline constexpr float kFarExtents = 7;
+
 /// The tree over all triangles. Blocks hold `block_width` triangles as columns of block_width
 /// floats: x0 y0 z0 x1 y1 z1 x2 y2 z2, then the primitive rows (uint32, kNone and NaN vertices in
 /// unused places). Node 0 is the root; node_count = 0 means there are no triangles.

@@ -129,10 +129,11 @@ void collapse(const BinaryNode* root, const Rows<TriangleRow>& triangles,
   }
   // The box test and the triangle test round differently; a box must hold every hit that the
   // triangle test can report. Both work on coordinates relative to the ray's origin, which lies
-  // within 3 extents (kernels/traverse_rays.h moves farther ones), so |vertex - origin| <= 4
-  // extents. With u = 2^-24 the sheared vertices are off by at most 6 u of that, the planes'
-  // distances by 11 u of the extent: 35 u in all; 64 u is taken.
-  const double grow = extent * 0x1p-18;
+  // within kFarExtents, so |vertex - origin| <= 8 extents. With u = 2^-24 the sheared vertices are
+  // off by at most 6 u of that, the planes' distances by 30 u of the extent: 78 u in all; 128 u is
+  // taken.
+  static_assert(kFarExtents + 1 <= 8);
+  const double grow = extent * 0x1p-17;
   Collapse work{triangles, occludes, options.block_width, grow, root->box.area(), out, {}, {}, {}};
   work.add_node(*root, 0);
   out.nodes = AlignedArray<TreeNode>(std::span<const TreeNode>(work.nodes));
