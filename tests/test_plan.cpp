@@ -31,10 +31,11 @@ TEST(Plan, SkipsWhatTheSceneDoesNotHold) {
 
   const std::string text = describe_plan(plan, scene);
   for (const char* expected :
-       {"intersect_closest: 12 triangles", "sample_lights (point)", "shade matte",
-        "intersect_planes: no plane in the scene", "intersect_spheres: no sphere in the scene",
-        "add_emission: no surface emits light", "draw lens: the camera is a pinhole",
-        "shade glass: no surface of this material", "draw choice: there is one light"})
+       {"intersect_tiles (camera), intersect_closest: 12 triangles", "sample_lights (point)",
+        "shade matte", "intersect_planes: no plane in the scene",
+        "intersect_spheres: no sphere in the scene", "add_emission: no surface emits light",
+        "draw lens: the camera is a pinhole", "shade glass: no surface of this material",
+        "draw choice: there is one light"})
     EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
 }
 

@@ -198,10 +198,12 @@ inline Table<Ray> to_table(const std::vector<Ray<Value>>& rays) {
   return table;
 }
 
-/// The kernel's answer for every ray, in calls of at most `batch` rays.
-inline std::vector<Hit<Value>> trace(const KernelTable& k, const TreeView& tree,
-                                     const std::vector<Ray<Value>>& rays,
-                                     uint32_t batch = 1u << 20) {
+using ClosestKernel = decltype(KernelTable::intersect_closest);
+
+/// A kernel's answer for every ray, in calls of at most `batch` rays.
+inline std::vector<Hit<Value>> trace_by(ClosestKernel kernel, const KernelTable& k,
+                                        const TreeView& tree, const std::vector<Ray<Value>>& rays,
+                                        uint32_t batch) {
   std::vector<Hit<Value>> out;
   const AlignedArray<std::byte> memory(
       k.traversal_scratch_bytes(tree, std::min(batch, uint32_t(rays.size()))));
@@ -212,10 +214,20 @@ inline std::vector<Hit<Value>> trace(const KernelTable& k, const TreeView& tree,
         rays.begin() + ptrdiff_t(std::min(rays.size(), begin + batch)));
     const Table<Ray> columns = to_table(part);
     const Table<Hit> hits{uint32_t(part.size())};
-    k.intersect_closest(tree, columns.view(), hits.columns(), uint32_t(part.size()), scratch);
+    kernel(tree, columns.view(), hits.columns(), uint32_t(part.size()), scratch);
     for (uint32_t i = 0; i < part.size(); ++i) out.push_back(hits.row(i));
   }
   return out;
+}
+inline std::vector<Hit<Value>> trace(const KernelTable& k, const TreeView& tree,
+                                     const std::vector<Ray<Value>>& rays,
+                                     uint32_t batch = 1u << 20) {
+  return trace_by(k.intersect_closest, k, tree, rays, batch);
+}
+inline std::vector<Hit<Value>> trace_tiles(const KernelTable& k, const TreeView& tree,
+                                           const std::vector<Ray<Value>>& rays,
+                                           uint32_t batch = 1u << 20) {
+  return trace_by(k.intersect_tiles, k, tree, rays, batch);
 }
 
 /// Are the segments of the rays stopped? Ray i goes from org along dir (not unit) for t in (0, 1).

@@ -113,6 +113,10 @@ struct KernelTable {
   size_t (*traversal_scratch_bytes)(const TreeView&, uint32_t max_rays) noexcept;
   LaneCount (*intersect_closest)(const TreeView&, const Ray<ConstColumn>&, const Hit<Column>&,
                                  uint32_t n, const Scratch&) noexcept;
+  /// The same answers to the bit, for rays of which 64 in a row lie close together, as camera rays
+  /// do: each 64 go through the tree as one beam. Rays that do not are served slowly.
+  LaneCount (*intersect_tiles)(const TreeView&, const Ray<ConstColumn>&, const Hit<Column>&,
+                               uint32_t n, const Scratch&) noexcept;
   /// Analytic shapes: hits is in and out (the nearer one stays). `first_prim` is their first row.
   void (*intersect_spheres)(const Rows<SphereRow>&, uint32_t first_prim, const Ray<ConstColumn>&,
                             const Hit<Column>&, uint32_t n) noexcept;

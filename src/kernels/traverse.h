@@ -252,11 +252,6 @@ struct ScratchPlan {
   }
 };
 
-template <class A>
-size_t traversal_scratch_bytes(const TreeView& tree, uint32_t max_rays) noexcept {
-  return ScratchPlan(tree, max_rays).total;
-}
-
 /// Traces rows [0, n), n <= kStreamRays, and leaves the answers in the records.
 template <class A, Query Q, class Columns>
 YAT_INLINE LaneCount trace_stream(const TreeView& tree, const Columns& rays, uint32_t n,

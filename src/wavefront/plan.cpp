@@ -32,7 +32,7 @@ void need_kernels(const Plan& plan) {
   need(k.generate_camera_rays[plan.thin_lens], k, "generate_camera_rays");
   if (plan.triangles) {
     need(k.traversal_scratch_bytes, k, "traversal_scratch_bytes");
-    need(k.intersect_closest, k, "intersect_closest");
+    need(k.intersect_closest && k.intersect_tiles, k, "intersect_closest");
     if (plan.lights) need(k.intersect_shadow[plan.shadow_mask], k, "intersect_shadow");
   }
   if (plan.spheres) need(k.intersect_spheres && k.shadow_spheres, k, "intersect_spheres");
@@ -118,8 +118,9 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
                    plan.thin_lens ? "thin lens" : "pinhole", kSamplerNames[uint32_t(plan.sampler)],
                    scene.film.crop_width(), scene.film.crop_height()));
   if (plan.triangles)
-    line(Stage::kIntersect, fmt::format("intersect_closest: {} triangles, {} nodes",
-                                        scene.triangles.size(), scene.tree.view.node_count));
+    line(Stage::kIntersect,
+         fmt::format("intersect_tiles (camera), intersect_closest: {} triangles, {} nodes",
+                     scene.triangles.size(), scene.tree.view.node_count));
   if (plan.spheres)
     line(Stage::kIntersect, fmt::format("intersect_spheres: {} spheres", scene.spheres.size()));
   if (plan.planes)

@@ -28,7 +28,7 @@ void Worker::count(Stage stage, uint64_t rows) {
 void Worker::generate(WorkCursor& work) {
   const CameraSample<Column>& camera = batch_.camera.columns();
   clock_.enter(Stage::kGenerate);
-  const uint32_t n = work.take(batch_.free_count, camera.pixel, camera.sample);
+  const uint32_t n = work.take(free_rows(), camera.pixel, camera.sample);
   if (!n) return;
   const SampleSum<Column>& sums = batch_.sums.columns();
   const FilmSettings& film = scene_.film;
@@ -55,6 +55,7 @@ void Worker::generate(WorkCursor& work) {
   count(Stage::kGenerate, n);
   counted_.stats.camera_rays += n;
   count_ += n;
+  fresh_ += n;
 }
 
 void Worker::turn() {
@@ -74,6 +75,7 @@ void Worker::turn() {
   counted_.stats.shadow_rays += out_.shadow_count;
   current_ = next;
   count_ = out_.path_count;
+  fresh_ = 0;
 }
 
 void Worker::intersect() {
@@ -82,7 +84,13 @@ void Worker::intersect() {
   const Hit<Column>& hits = batch_.hits.columns();
   LaneCount lanes{count_, (count_ + kernels_.lanes - 1) / kernels_.lanes};
   if (plan_.triangles) {
-    lanes = kernels_.intersect_closest(view_.geometry.tree, rays, hits, count_, batch_.scratch);
+    const uint32_t old = count_ - fresh_;
+    lanes = kernels_.intersect_closest(view_.geometry.tree, rays, hits, old, batch_.scratch);
+    const LaneCount fresh =
+        kernels_.intersect_tiles(view_.geometry.tree, columns_from(rays, old),
+                                 columns_from(hits, old), fresh_, batch_.scratch);
+    lanes.rows += fresh.rows;
+    lanes.steps += fresh.steps;
   } else {
     std::copy_n(rays.t_max, count_, hits.t);
     std::fill_n(hits.prim, count_, kNone);

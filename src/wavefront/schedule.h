@@ -52,13 +52,19 @@ struct WorkerCount {
   DropLog drops;
 };
 
+/// Paths that are started together: the camera rays of a block of pixels.
+inline constexpr uint32_t kBeamPaths = 64;
+
 class Worker {
  public:
   /// film: where ended paths go; rows of pixels that no other worker touches at the same time.
   Worker(const Scene& scene, const Plan& plan, uint32_t batch_rows, bool trace, Film& film);
 
-  /// Rows that new paths may take.
-  uint32_t free_rows() const { return batch_.free_count; }
+  /// Rows that new paths may take: whole beams of camera rays.
+  uint32_t free_rows() const {
+    const uint32_t whole = batch_.rows < kBeamPaths ? batch_.rows : kBeamPaths;
+    return batch_.free_count / whole * whole;
+  }
   /// Paths under way.
   uint32_t under_way() const { return count_; }
   /// Starts up to free_rows() paths of `work`.
@@ -92,6 +98,7 @@ class Worker {
   WorkerCount counted_;
   uint32_t current_ = 0;  ///< which of the two pairs holds the paths under way
   uint32_t count_ = 0;    ///< rows in it
+  uint32_t fresh_ = 0;    ///< the last of them: camera rays, 64 in a row close together
   uint32_t bin_begin_[kMaxBins + 1] = {};
   ShadeOutput out_;
 };

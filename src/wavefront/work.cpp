@@ -7,6 +7,8 @@ namespace yat {
 namespace {
 
 constexpr uint32_t kBlock = 8;
+/// Pixels of a block are listed by such quarters: the 16 rays of a sub-beam (traverse_tile.h).
+constexpr uint32_t kQuarter = 4;
 constexpr uint32_t kLargestTile = 256;
 /// Enough units that the last ones to finish are a small part of a render.
 constexpr uint32_t kUnitsPerWorker = 16;
@@ -56,8 +58,12 @@ void WorkCursor::start(const WorkUnit& unit) {
   for (uint32_t y = unit.y0; y < unit.y1; y += kBlock)
     for (uint32_t x = unit.x0; x < unit.x1; x += kBlock) {
       blocks_.push_back(uint32_t(pixels_.size()));
-      for (uint32_t j = y; j < std::min(y + kBlock, unit.y1); ++j)
-        for (uint32_t i = x; i < std::min(x + kBlock, unit.x1); ++i) pixels_.push_back(j << 16 | i);
+      for (uint32_t quarter = 0; quarter < 4; ++quarter) {
+        const uint32_t qx = x + quarter % 2 * kQuarter, qy = y + quarter / 2 * kQuarter;
+        for (uint32_t j = qy; j < std::min(qy + kQuarter, unit.y1); ++j)
+          for (uint32_t i = qx; i < std::min(qx + kQuarter, unit.x1); ++i)
+            pixels_.push_back(j << 16 | i);
+      }
     }
   first_sample_ = sample_ = unit.first_sample;
   end_sample_ = unit.end_sample;
