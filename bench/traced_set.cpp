@@ -12,9 +12,9 @@
 namespace yat::bench {
 
 std::vector<TraceKernel> trace_kernels(const KernelTable& table) {
-  return {
-      {"stream", table.traversal_scratch_bytes, table.intersect_closest, table.intersect_shadow[0]},
-      {"scalar", scalar_scratch_bytes, scalar_closest, scalar_shadow}};
+  return {{"stream", table.traversal_scratch_bytes, table.intersect_closest, table.intersect_tiles,
+           table.intersect_shadow[0]},
+          {"scalar", scalar_scratch_bytes, scalar_closest, scalar_closest, scalar_shadow}};
 }
 
 std::string Config::name() const {
@@ -30,6 +30,7 @@ uint32_t stream_rows(const RaySet& set) {
 TracedSet::TracedSet(const Config& config, const RaySet& set)
     : config_(config),
       shadow_(set.shadow),
+      closest_(set.name == "camera" ? config.kernel.camera : config.kernel.closest),
       n_(uint32_t(set.rays.size())),
       stream_(config.stream ? config.stream : stream_rows(set)) {
   scratch_.emplace_back(config.kernel.scratch_bytes(config.tree->view, stream_));
@@ -53,8 +54,8 @@ LaneCount TracedSet::trace_stream(uint32_t first, const Scratch& scratch) {
   if (shadow_)
     return config_.kernel.shadow(tree, columns_from(shadow_rays_.view(), first),
                                  occluded_.data() + first, rows, scratch);
-  return config_.kernel.closest(tree, columns_from(rays_.view(), first),
-                                columns_from(hits_.columns(), first), rows, scratch);
+  return closest_(tree, columns_from(rays_.view(), first), columns_from(hits_.columns(), first),
+                  rows, scratch);
 }
 
 TraceTime TracedSet::trace() {

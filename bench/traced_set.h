@@ -11,17 +11,19 @@
 
 namespace yat::bench {
 
-/// A way to trace rays; both functions are as in KernelTable.
+/// A way to trace rays; the functions are as in KernelTable.
 struct TraceKernel {
   std::string name;
   size_t (*scratch_bytes)(const TreeView&, uint32_t max_rays) noexcept;
   LaneCount (*closest)(const TreeView&, const Ray<ConstColumn>&, const Hit<Column>&, uint32_t n,
                        const Scratch&) noexcept;
+  decltype(closest) camera;  ///< for camera rays, of which 64 in a row lie close together
   LaneCount (*shadow)(const TreeView&, const ShadowRay<ConstColumn>&, uint32_t* occluded,
                       uint32_t n, const Scratch&) noexcept;
 };
 
-/// "stream", the kernels of a table, and "scalar", plain code over the same tree.
+/// "stream", the kernels of a table (beams for camera rays, streams for others), and "scalar",
+/// plain code over the same tree.
 std::vector<TraceKernel> trace_kernels(const KernelTable& table);
 
 /// What is measured: a kernel of an instruction set over a kind of tree, in streams of so many
@@ -63,6 +65,7 @@ class TracedSet {
 
   Config config_;
   bool shadow_;
+  decltype(TraceKernel::closest) closest_;
   uint32_t n_, stream_;
   Table<Ray> rays_;
   Table<ShadowRay> shadow_rays_;
