@@ -11,15 +11,27 @@ namespace {
 
 using namespace testing_traverse;
 
+constexpr TreeShape kShapes[] = {TreeShape::kKd, TreeShape::kObjects, TreeShape::kObjectsAndPlanes};
+
+Tree build(const Mesh& mesh, TreeShape shape, uint32_t width, uint32_t threads,
+           std::span<const uint8_t> occludes = {}) {
+  ThreadPool pool(threads);
+  return build_tree(mesh.rows.view(), occludes, {width, false, shape}, pool);
+}
+
 void expect_sound(const Mesh& mesh, const char* what, uint64_t references_at_least) {
-  ThreadPool pool(2);
-  for (const bool strict : {false, true})
+  for (const TreeShape shape : kShapes)
     for (const uint32_t width : {4u, 8u, 16u}) {
-      const Tree tree = build_tree(mesh.rows.view(), {}, {width, strict}, pool);
-      EXPECT_EQ(verify_tree(tree, mesh.rows.view()), "") << what << " width " << width;
-      EXPECT_GE(tree.statistics.references, references_at_least) << what;
-      EXPECT_LE(tree.statistics.references, (strict ? 8 : 4) * mesh.list.size() + 8) << what;
+      const Tree tree = build(mesh, shape, width, 2);
+      const TreeStatistics& s = tree.statistics;
+      EXPECT_EQ(verify_tree(tree, mesh.rows.view()), "")
+          << what << " width " << width << " shape " << int(shape);
+      EXPECT_GE(s.references, references_at_least) << what;
+      const uint64_t most = shape == TreeShape::kKd ? 8 : shape == TreeShape::kObjects ? 1 : 4;
+      EXPECT_LE(s.references, most * mesh.list.size() + 8) << what << " shape " << int(shape);
+      EXPECT_LE(s.references, s.blocks * width) << what;
       EXPECT_LE(tree.view.max_depth, 96u) << what;
+      EXPECT_EQ(s.shape, shape);
     }
 }
 
@@ -107,30 +119,68 @@ TEST(TreeBuild, SmallestInputs) {
   EXPECT_EQ(verify_tree(tree, one.rows.view()), "");
 }
 
-// K3
+void expect_same_bytes(const Tree& a, const Tree& b, const char* what) {
+  ASSERT_EQ(a.nodes.size(), b.nodes.size()) << what;
+  ASSERT_EQ(a.blocks.size(), b.blocks.size()) << what;
+  EXPECT_EQ(0, std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(TreeNode)));
+  EXPECT_EQ(0, std::memcmp(a.blocks.data(), b.blocks.data(), a.blocks.size() * sizeof(float)));
+  EXPECT_EQ(0, std::memcmp(a.block_occluders.data(), b.block_occluders.data(),
+                           a.block_occluders.size() * sizeof(uint32_t)));
+  EXPECT_EQ(a.statistics.sah_cost, b.statistics.sah_cost) << what;
+  EXPECT_EQ(a.statistics.overlap, b.statistics.overlap) << what;
+}
+
+// K3. Large enough for sets that are binned in pieces, and for sets that outgrow their room.
 TEST(TreeBuild, SameBytesForAnyThreads) {
-  const Mesh mesh = soup(30000, 0.05, 6);
+  Mesh mesh = soup(60000, 0.03, 6);
+  Rng rng(9);
+  for (int i = 0; i < 3000; ++i) {
+    const Vec c = random_point(rng);
+    mesh.add(c, c + random_point(rng, 0.7), c + random_point(rng, 0.7));
+  }
+  mesh.done();
   std::vector<uint8_t> occludes(mesh.list.size());
   for (uint32_t i = 0; i < occludes.size(); ++i) occludes[i] = i % 5 != 0;
-  for (const bool strict : {false, true}) {
+  for (const TreeShape shape : kShapes) {
     // One pool at a time: the least limit of all living pools holds.
-    const auto build = [&](uint32_t threads) {
-      ThreadPool pool(threads);
-      return build_tree(mesh.rows.view(), occludes, {16, strict}, pool);
-    };
-    const Tree first = build(1);
-    for (uint32_t threads = 1; threads <= 4; ++threads) {
-      const Tree tree = build(threads);
-      ASSERT_EQ(tree.nodes.size(), first.nodes.size());
-      ASSERT_EQ(tree.blocks.size(), first.blocks.size());
-      EXPECT_EQ(0, std::memcmp(tree.nodes.data(), first.nodes.data(),
-                               tree.nodes.size() * sizeof(TreeNode)));
-      EXPECT_EQ(0, std::memcmp(tree.blocks.data(), first.blocks.data(),
-                               tree.blocks.size() * sizeof(float)));
-      EXPECT_EQ(0, std::memcmp(tree.block_occluders.data(), first.block_occluders.data(),
-                               tree.block_occluders.size() * sizeof(uint32_t)));
-    }
+    const Tree first = build(mesh, shape, 16, 1, occludes);
+    EXPECT_EQ(verify_tree(first, mesh.rows.view()), "");
+    for (const uint32_t threads : {1u, 2u, 3u, 7u})
+      expect_same_bytes(build(mesh, shape, 16, threads, occludes), first, "shape");
   }
+}
+
+/// Long thin triangles across the whole box among small ones: partitions of objects overlap.
+Mesh beams(uint32_t count, uint32_t small) {
+  Mesh mesh = soup(small, 0.01, 2);
+  Rng rng(3);
+  for (uint32_t i = 0; i < count; ++i) {
+    const Vec a = random_point(rng), b = random_point(rng);
+    mesh.add(a, b, b + random_point(rng, 0.01));
+  }
+  mesh.done();
+  return mesh;
+}
+
+TEST(TreeBuild, ShapeFollowsTheTriangles) {
+  ThreadPool pool(2);
+  const auto shape_of = [&](const Mesh& mesh, bool strict) {
+    const Tree tree = build_tree(mesh.rows.view(), {}, {16, strict}, pool);
+    EXPECT_EQ(verify_tree(tree, mesh.rows.view()), "");
+    return tree.statistics.shape;
+  };
+  EXPECT_EQ(shape_of(voxels(12), false), TreeShape::kObjects);
+  EXPECT_EQ(shape_of(beams(1500, 6000), false), TreeShape::kObjectsAndPlanes);
+  EXPECT_EQ(shape_of(voxels(12), true), TreeShape::kKd);
+}
+
+TEST(TreeBuild, PlanesCutWhatPartitionsCannotSeparate) {
+  const Mesh mesh = beams(1500, 6000);
+  const TreeStatistics objects = build(mesh, TreeShape::kObjects, 16, 1).statistics;
+  const TreeStatistics planes = build(mesh, TreeShape::kObjectsAndPlanes, 16, 1).statistics;
+  EXPECT_EQ(objects.references, mesh.list.size());
+  EXPECT_GT(planes.references, mesh.list.size());
+  EXPECT_LT(planes.sah_cost, 0.9 * objects.sah_cost);
 }
 
 // A test that cannot fail proves nothing: damage must be seen.

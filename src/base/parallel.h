@@ -74,6 +74,11 @@ void parallel_invoke(F&& f, G&& g) {
   tbb::parallel_invoke(first, second);
 }
 
+/// Which worker this is, in [0, threads()) of its pool. Inside ThreadPool::run.
+inline uint32_t worker_index() {
+  return uint32_t(tbb::this_task_arena::current_thread_index());
+}
+
 /// f(begin, end) over pieces of [0, count) of at least `grain`. Inside ThreadPool::run. The pieces
 /// depend on the machine: results must not.
 template <class F>

@@ -2,6 +2,7 @@
 // The acceleration structure over triangles: SAH build and collapse to the 8-wide boxed tree.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -11,17 +12,28 @@
 
 namespace yat {
 
+/// How a tree is split.
+enum class TreeShape {
+  kKd,                ///< by planes only; triangles that a plane cuts are on both sides
+  kObjects,           ///< by partitions of the triangles only
+  kObjectsAndPlanes,  ///< by planes where partitions would overlap too much
+};
+
 struct TreeOptions {
-  uint32_t block_width = 16;    ///< triangles per leaf block: 4, 8 or 16
-  bool strict_kd_tree = false;  ///< kd splits down to the leaves (--tree kd)
+  uint32_t block_width = 16;         ///< triangles per leaf block: 4, 8 or 16
+  bool strict_kd_tree = false;       ///< kKd (--tree kd)
+  std::optional<TreeShape> shape{};  ///< this one; without: the better for these triangles
 };
 
 struct TreeStatistics {
+  TreeShape shape = TreeShape::kObjects;
   uint64_t triangles = 0;   ///< in the input, degenerate ones included
   uint64_t references = 0;  ///< in leaves, duplicates counted
   uint64_t nodes = 0, leaves = 0, blocks = 0;
   uint32_t max_depth = 0;  ///< 8-wide nodes on the longest way down
-  double sah_cost = 0;     ///< expected cost of a random ray through the bounds
+  double sah_cost = 0;     ///< expected cost of a random ray through the bounds, in the
+                           ///< prices of tree_parts.h
+  double overlap = 0;      ///< of sibling boxes in the tree of objects, in areas of the bounds
   double block_fill = 0;   ///< references / (blocks * block_width)
   double build_seconds = 0;
 };

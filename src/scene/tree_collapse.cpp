@@ -1,9 +1,10 @@
-// Binary tree to the 8-wide boxed tree of scene/compiled.h.
+// Binary tree to the 8-wide boxed tree of scene/compiled.h: how many rows each subtree takes, then
+// all rows at once.
 
 #include <cstring>
 #include <limits>
 
-#include "scene/tree_parts.h"
+#include "scene/tree_wide.h"
 
 namespace yat::tree {
 namespace {
@@ -11,121 +12,126 @@ namespace {
 struct Collapse {
   const Rows<TriangleRow>& triangles;
   std::span<const uint8_t> occludes;
-  uint32_t block_width;
+  const Prices& prices;
   double grow;  // [m]
-  double root_area;
   Tree& tree;
-  std::vector<TreeNode> nodes;
-  std::vector<float> blocks;
-  std::vector<uint32_t> block_occluders;
 
-  /// The (up to eight) descendants of `node` that become its children: the largest are opened.
-  static std::vector<const BinaryNode*> open(const BinaryNode& node) {
-    std::vector<const BinaryNode*> set;
-    if (node.leaf()) return {&node};
-    set = {node.child[0].get(), node.child[1].get()};
-    while (set.size() < 8) {
-      size_t widest = set.size();
-      double widest_area = -1;
-      for (size_t i = 0; i < set.size(); ++i)
-        if (!set[i]->leaf() && set[i]->box.area() > widest_area) {
-          widest = i;
-          widest_area = set[i]->box.area();
-        }
-      if (widest == set.size()) break;
-      const BinaryNode* opened = set[widest];
-      set[widest] = opened->child[0].get();
-      set.insert(set.begin() + ptrdiff_t(widest) + 1, opened->child[1].get());
+  template <class F>
+  static void for_children(const BinaryNode& node, const Children& set, F&& f) {
+    if (node.count > kParallel) {
+      parallel_ranges(set.count, 1, [&](uint32_t begin, uint32_t end) {
+        for (uint32_t i = begin; i != end; ++i) f(i);
+      });
+    } else {
+      for (uint32_t i = 0; i < set.count; ++i) f(i);
     }
-    return set;
   }
 
-  /// Children of a node in the order in which a ray of `octant` meets them, by the split planes.
-  static void order_of(const BinaryNode& node, const std::vector<const BinaryNode*>& set,
-                       uint32_t octant, std::vector<uint32_t>& order) {
-    for (size_t i = 0; i < set.size(); ++i)
-      if (set[i] == &node) return order.push_back(uint32_t(i));
-    const uint32_t first = octant >> node.axis & 1;
-    order_of(*node.child[first], set, octant, order);
-    order_of(*node.child[first ^ 1], set, octant, order);
+  /// Counts the rows that a wide node at `node` and what is below it take.
+  void count(BinaryNode& node) const {
+    const Children set = children_of(node);
+    for_children(node, set, [&](uint32_t i) {
+      BinaryNode& child = *set.node[i];
+      if (child.leaf()) {
+        child.blocks = uint32_t(prices.blocks(child.count));
+      } else {
+        count(child);
+      }
+    });
+    uint32_t nodes = 1, blocks = 0;
+    for (uint32_t i = 0; i < set.count; ++i) {
+      if (!set.node[i]->leaf()) nodes += set.node[i]->wide_nodes;
+      blocks += set.node[i]->blocks;
+    }
+    node.wide_nodes = nodes;  // A root that is a leaf counts as both.
+    node.blocks = blocks;
   }
 
-  uint32_t add_leaf(const BinaryNode& leaf) {
-    const uint32_t count = uint32_t(leaf.prims.size());
-    const uint32_t block_count = (count + block_width - 1) / block_width;
-    const auto first = uint32_t(block_occluders.size());
-    blocks.resize(blocks.size() + size_t(block_count) * block_width * 10,
-                  std::numeric_limits<float>::quiet_NaN());
-    for (uint32_t b = 0; b < block_count; ++b) {
-      float* block = blocks.data() + size_t(first + b) * block_width * 10;
+  /// Sums over a subtree, in the order of its children.
+  struct Sums {
+    uint64_t references = 0, leaves = 0;
+    uint32_t depth = 0;
+    void add(const Sums& other) {
+      references += other.references;
+      leaves += other.leaves;
+      depth = std::max(depth, other.depth);
+    }
+  };
+
+  Sums add_leaf(const BinaryNode& leaf, uint32_t first) const {
+    const uint32_t width = prices.block_width;
+    for (uint32_t b = 0; b < leaf.blocks; ++b) {
+      float* const block = tree.blocks.data() + size_t(first + b) * width * 10;
       uint32_t bits = 0;
-      for (uint32_t k = 0; k < block_width; ++k) {
-        const uint32_t i = b * block_width + k;
-        const uint32_t prim = i < count ? leaf.prims[i] : kNone;
-        if (prim != kNone) {
+      for (uint32_t k = 0; k < width; ++k) {
+        const size_t i = size_t(b) * width + k;
+        if (i < leaf.count) {
+          const uint32_t prim = leaf.rows[i];
           float words[9];
           std::memcpy(words, triangles.words + size_t(prim) * row_words<TriangleRow>, sizeof words);
-          for (uint32_t c = 0; c < 9; ++c) block[c * block_width + k] = words[c];
+          for (uint32_t c = 0; c < 9; ++c) block[c * width + k] = words[c];
+          std::memcpy(block + 9 * width + k, &prim, 4);
           if (occludes.empty() || occludes[prim]) bits |= 1u << k;
+        } else {
+          const uint32_t none = kNone;
+          for (uint32_t c = 0; c < 9; ++c)
+            block[c * width + k] = std::numeric_limits<float>::quiet_NaN();
+          std::memcpy(block + 9 * width + k, &none, 4);
         }
-        std::memcpy(block + 9 * block_width + k, &prim, 4);
       }
-      block_occluders.push_back(bits);
+      tree.block_occluders[first + b] = bits;
     }
-    tree.statistics.references += count;
-    ++tree.statistics.leaves;
-    tree.statistics.sah_cost +=
-        leaf.box.area() / root_area * (Prices::kBlock * block_count + Prices::kTriangle * count);
-    return 0x80000000u | first << 5 | (block_count - 1);
+    return {leaf.count, 1, 0};
   }
 
-  uint32_t add_node(const BinaryNode& node, uint32_t depth) {
-    const auto row = uint32_t(nodes.size());
-    nodes.emplace_back();
-    tree.statistics.max_depth = std::max(tree.statistics.max_depth, depth + 1);
-    tree.statistics.sah_cost += node.box.area() / root_area;
-    const std::vector<const BinaryNode*> set = open(node);
-    TreeNode out;
+  Sums add_node(const BinaryNode& node, const Children& set, uint32_t row, uint32_t block) const {
+    TreeNode& out = tree.nodes[row];
     std::memset(&out, 0, sizeof out);
+    float* planes[6] = {out.min_x, out.min_y, out.min_z, out.max_x, out.max_y, out.max_z};
+    uint32_t child_row[8], child_block[8], next = row + 1;
     for (uint32_t i = 0; i < 8; ++i) {
-      const bool there = i < set.size();
       const float none = std::numeric_limits<float>::infinity();
-      float* planes[6] = {out.min_x, out.min_y, out.min_z, out.max_x, out.max_y, out.max_z};
       for (int a = 0; a < 3; ++a) {
-        planes[a][i] = there ? round_down(double(set[i]->box.min[a]) - grow) : none;
-        planes[3 + a][i] = there ? round_up(double(set[i]->box.max[a]) + grow) : -none;
+        planes[a][i] = i < set.count ? round_down(double(set.node[i]->box.low[a]) - grow) : none;
+        planes[3 + a][i] =
+            i < set.count ? round_up(double(set.node[i]->box.high[a]) + grow) : -none;
       }
       out.child[i] = kNone;
+      if (i >= set.count) continue;
+      const BinaryNode& child = *set.node[i];
+      child_row[i] = next;
+      child_block[i] = block;
+      out.child[i] = child.leaf() ? 0x80000000u | block << 5 | (child.blocks - 1) : next;
+      if (!child.leaf()) next += child.wide_nodes;
+      block += child.blocks;
     }
     for (uint32_t octant = 0; octant < 8; ++octant) {
-      std::vector<uint32_t> order;
-      order_of(node, set, octant, order);
-      for (uint32_t i = uint32_t(order.size()); i < 8; ++i) order.push_back(i);
-      uint32_t bits = 0;
-      for (uint32_t k = 0; k < 8; ++k) bits |= order[k] << (3 * k);
+      const uint32_t bits = set.order(octant);
       for (uint32_t byte = 0; byte < 3; ++byte)
         out.order[octant][byte] = uint8_t(bits >> (8 * byte));
     }
-    for (uint32_t i = 0; i < set.size(); ++i)
-      out.child[i] = set[i]->leaf() ? add_leaf(*set[i]) : add_node(*set[i], depth + 1);
-    nodes[row] = out;
-    return row;
+    Sums sums[8], all;
+    for_children(node, set, [&](uint32_t i) {
+      BinaryNode& child = *set.node[i];
+      sums[i] = child.leaf() ? add_leaf(child, child_block[i])
+                             : add_node(child, children_of(child), child_row[i], child_block[i]);
+    });
+    for (uint32_t i = 0; i < set.count; ++i) all.add(sums[i]);
+    ++all.depth;
+    return all;
   }
 };
 
 }  // namespace
 
-void collapse(const BinaryNode* root, const Rows<TriangleRow>& triangles,
-              std::span<const uint8_t> occludes, const TreeOptions& options, Tree& out) {
-  out.statistics.triangles = triangles.count;
-  out.view.block_width = options.block_width;
-  if (!root) return;
+void collapse(BinaryNode& root, const Rows<TriangleRow>& triangles,
+              std::span<const uint8_t> occludes, const Prices& prices, Tree& out) {
   double extent = 0;
   for (int a = 0; a < 3; ++a) {
-    out.view.min[a] = root->box.min[a];
-    out.view.max[a] = root->box.max[a];
+    out.view.min[a] = root.box.low[a];
+    out.view.max[a] = root.box.high[a];
     extent =
-        std::max({extent, std::abs(double(root->box.min[a])), std::abs(double(root->box.max[a]))});
+        std::max({extent, std::abs(double(root.box.low[a])), std::abs(double(root.box.high[a]))});
   }
   // The box test and the triangle test round differently; a box must hold every hit that the
   // triangle test can report. Both work on coordinates relative to the ray's origin, which lies
@@ -133,16 +139,20 @@ void collapse(const BinaryNode* root, const Rows<TriangleRow>& triangles,
   // off by at most 6 u of that, the planes' distances by 30 u of the extent: 78 u in all; 128 u is
   // taken.
   static_assert(kFarExtents + 1 <= 8);
-  const double grow = extent * 0x1p-17;
-  Collapse work{triangles, occludes, options.block_width, grow, root->box.area(), out, {}, {}, {}};
-  work.add_node(*root, 0);
-  out.nodes = AlignedArray<TreeNode>(std::span<const TreeNode>(work.nodes));
-  out.blocks = AlignedArray<float>(std::span<const float>(work.blocks));
-  out.block_occluders = AlignedArray<uint32_t>(std::span<const uint32_t>(work.block_occluders));
+  const Collapse work{triangles, occludes, prices, extent * 0x1p-17, out};
+  out.statistics.sah_cost = plan_wide_tree(root, prices);
+  work.count(root);
   TreeStatistics& s = out.statistics;
-  s.nodes = work.nodes.size();
-  s.blocks = work.block_occluders.size();
-  s.block_fill = double(s.references) / (double(s.blocks) * options.block_width);
+  s.nodes = root.wide_nodes;
+  s.blocks = root.blocks;
+  out.nodes.resize_unset(s.nodes);
+  out.blocks.resize_unset(s.blocks * prices.block_width * 10);
+  out.block_occluders.resize_unset(s.blocks);
+  const Collapse::Sums sums = work.add_node(root, children_of(root), 0, 0);
+  s.references = sums.references;
+  s.leaves = sums.leaves;
+  s.max_depth = sums.depth;
+  s.block_fill = double(s.references) / (double(s.blocks) * prices.block_width);
   out.view.nodes = out.nodes.data();
   out.view.blocks = out.blocks.data();
   out.view.block_occluders = out.block_occluders.data();

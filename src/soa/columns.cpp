@@ -6,7 +6,7 @@
 
 namespace yat {
 
-std::unique_ptr<std::byte[], FreeAligned> allocate_aligned(size_t bytes) {
+std::unique_ptr<std::byte[], FreeAligned> allocate_unset(size_t bytes) {
   constexpr size_t kHugePage = size_t(2) << 20;
   const size_t alignment = bytes >= kHugePage ? kHugePage : 64;
   const size_t rounded = (bytes + alignment - 1) / alignment * alignment;
@@ -17,8 +17,13 @@ std::unique_ptr<std::byte[], FreeAligned> allocate_aligned(size_t bytes) {
   // Only a hint: the tables are right, if slower, on small pages.
   if (alignment == kHugePage) madvise(p, rounded, MADV_HUGEPAGE);
 #endif
-  std::memset(p, 0, rounded ? rounded : alignment);
   return std::unique_ptr<std::byte[], FreeAligned>(static_cast<std::byte*>(p));
+}
+
+std::unique_ptr<std::byte[], FreeAligned> allocate_aligned(size_t bytes) {
+  auto memory = allocate_unset(bytes);
+  if (bytes) std::memset(memory.get(), 0, bytes);
+  return memory;
 }
 
 }  // namespace yat

@@ -20,6 +20,8 @@ struct FreeAligned {
 /// `bytes` of zeroed memory aligned to a cache line, or to 2 MB where that much is asked for (the
 /// system may then back it with huge pages). Throws std::bad_alloc.
 std::unique_ptr<std::byte[], FreeAligned> allocate_aligned(size_t bytes);
+/// The same, but the memory holds anything: for what is written whole at once.
+std::unique_ptr<std::byte[], FreeAligned> allocate_unset(size_t bytes);
 
 /// A growable-once array of T: 64-byte aligned, padded by at least kRowPad elements, zeroed.
 template <class T>
@@ -36,6 +38,12 @@ class AlignedArray {
   /// Discards the contents.
   void resize(size_t n) {
     memory_ = allocate_aligned((n + kRowPad) * sizeof(T));
+    size_ = n;
+  }
+  /// The same, but only the padding is zeroed: for whoever writes every element.
+  void resize_unset(size_t n) {
+    memory_ = allocate_unset((n + kRowPad) * sizeof(T));
+    std::memset(static_cast<void*>(data() + n), 0, kRowPad * sizeof(T));
     size_ = n;
   }
   T* data() { return reinterpret_cast<T*>(memory_.get()); }

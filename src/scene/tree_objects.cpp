@@ -1,0 +1,239 @@
+// Partitions of objects: by bins of centres for large sets, by exact sweeps for small ones.
+//
+// Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007.
+
+#include <algorithm>
+#include <numeric>
+
+#include "scene/tree_parts.h"
+
+namespace yat::tree {
+
+void make_leaf(const Set& set, BinaryNode& node) {
+  uint32_t* const rows = set.rows();
+  for (size_t i = 0; i < set.count; ++i) rows[i] = set.references()[i].prim();
+  std::sort(rows, rows + set.count);
+  node.box = set.box;
+  node.rows = rows;
+  node.count = size_t(std::unique(rows, rows + set.count) - rows);
+}
+
+namespace {
+
+constexpr int kBins = 32;
+
+struct Bins {
+  Box box[3][kBins];
+  uint32_t count[3][kBins] = {};
+
+  void add(std::span<const Reference> references, const BinMap& bin) {
+    for (const Reference& r : references) {
+      const I4 at = bin(r.half_center());
+      const Box b = r.box();
+      for (int axis = 0; axis < 3; ++axis) {
+        box[axis][at[axis]].add(b);
+        ++count[axis][at[axis]];
+      }
+    }
+  }
+  void add(const Bins& other) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (int b = 0; b < kBins; ++b) {
+        box[axis][b].add(other.box[axis][b]);
+        count[axis][b] += other.count[axis][b];
+      }
+  }
+};
+
+BinMap center_bins(const Set& set) {
+  return BinMap(set.half_centers.low, set.half_centers.high, kBins);
+}
+
+void bin_all(const Set& set, Bins& bins) {
+  const BinMap bin = center_bins(set);
+  const std::span<const Reference> references = set.references();
+  const size_t pieces = (set.count + kBinGrain - 1) / kBinGrain;
+  if (pieces <= 1) return bins.add(references, bin);
+  std::vector<Bins> piece(pieces);
+  parallel_ranges(uint32_t(pieces), 1, [&](uint32_t begin, uint32_t end) {
+    for (size_t i = begin; i != end; ++i) {
+      const size_t first = i * kBinGrain;
+      piece[i].add(references.subspan(first, std::min<size_t>(kBinGrain, set.count - first)), bin);
+    }
+  });
+  for (const Bins& b : piece) bins.add(b);
+}
+
+}  // namespace
+
+ObjectSplit find_object_split(const Set& set, const LocalPrices& prices) {
+  ObjectSplit best;
+  if (!(prices.area > 0)) return best;
+  Bins bins;
+  bin_all(set, bins);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(set.half_centers.high[axis] > set.half_centers.low[axis])) continue;
+    float right_area[kBins];
+    Box side;
+    for (int b = kBins; b-- > 1;) {
+      side.add(bins.box[axis][b]);
+      right_area[b] = prices.unit(side);
+    }
+    side = Box();
+    size_t left = 0;
+    for (int b = 1; b < kBins; ++b) {
+      side.add(bins.box[axis][b - 1]);
+      left += bins.count[axis][b - 1];
+      const size_t right = set.count - left;
+      if (left == 0 || right == 0) continue;
+      const float cost = prices.split(left, prices.unit(side), right, right_area[b]);
+      if (cost < best.cost) {
+        best.cost = cost;
+        best.axis = axis;
+        best.bin = b;
+      }
+    }
+  }
+  for (int b = 0; b < kBins; ++b)
+    (b < best.bin ? best.left : best.right).add(bins.box[best.axis][b]);
+  return best;
+}
+
+void split_objects(const Set& set, const ObjectSplit& split, Set& left, Set& right) {
+  left = right = Set();
+  left.storage = right.storage = set.storage;
+  Reference* const begin = set.storage->references + set.first;
+  size_t i = 0, j = set.count;
+  if (split.cost < HUGE_VALF) {
+    left.box = split.left;
+    right.box = split.right;
+    const BinMap bin = center_bins(set);
+    const auto lower = [&](const Reference& r) {
+      return bin(r.half_center())[split.axis] < split.bin;
+    };
+    for (;;) {
+      while (i < j && lower(begin[i])) left.add_center(begin[i++]);
+      while (i < j && !lower(begin[j - 1])) right.add_center(begin[--j]);
+      if (i == j) break;
+      std::swap(begin[i], begin[j - 1]);
+    }
+  } else {
+    // All centres are equal, or no side has an extent: any halves will do.
+    i = set.count / 2;
+    for (size_t k = 0; k < set.count; ++k) (k < i ? left : right).add(begin[k]);
+  }
+  left.first = set.first;
+  left.count = left.room = i;
+  right.first = set.first + i;
+  right.count = set.count - i;
+  right.room = set.room - i;
+}
+
+namespace {
+
+/// A set of at most kSmallSet references, sorted once along each axis; its subsets are ranges of
+/// the three orders.
+struct Small {
+  const Prices& prices;
+  NodeArena& arena;
+  std::span<const Reference> references;
+  uint32_t* rows;
+  uint8_t order[3][kSmallSet];
+
+  void sort() {
+    const size_t n = references.size();
+    uint64_t keys[kSmallSet];
+    for (int axis = 0; axis < 3; ++axis) {
+      for (size_t i = 0; i < n; ++i) {
+        // The bits of floats, made to ascend; equal centres keep their order in the set.
+        const auto bits = std::bit_cast<uint32_t>(float(references[i].half_center()[axis]) + 0.f);
+        const uint32_t key = bits >> 31 ? ~bits : bits | 0x80000000u;
+        keys[i] = uint64_t(key) << 8 | i;
+      }
+      std::sort(keys, keys + n);
+      for (size_t i = 0; i < n; ++i) order[axis][i] = uint8_t(keys[i]);
+    }
+  }
+
+  void leaf(size_t first, size_t count, BinaryNode& node) const {
+    uint32_t* const to = rows + first;
+    for (size_t i = 0; i < count; ++i) to[i] = references[order[0][first + i]].prim();
+    std::sort(to, to + count);
+    node.rows = to;
+    node.count = size_t(std::unique(to, to + count) - to);
+  }
+
+  /// node.box is the box of the range.
+  void build(size_t first, size_t count, uint32_t depth, BinaryNode& node) {
+    node.count = count;
+    const size_t limit = size_t(kMaxBlocks) * prices.block_width;
+    if (count == 1) return leaf(first, count, node);
+    const LocalPrices local(prices, node.box);
+    float best = HUGE_VALF;
+    int best_axis = 0;
+    size_t best_left = count / 2;
+    Box below, above;
+    if (local.area > 0 && depth < kMaxPricedDepth) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const uint8_t* const sorted = order[axis] + first;
+        float right_area[kSmallSet];
+        Box box;
+        for (size_t i = count; i-- > 1;) {
+          box.add(references[sorted[i]].box());
+          right_area[i] = local.unit(box);
+        }
+        box = Box();
+        for (size_t i = 1; i < count; ++i) {
+          box.add(references[sorted[i - 1]].box());
+          const float cost = local.split(i, local.unit(box), count - i, right_area[i]);
+          if (cost < best) {
+            best = cost;
+            best_axis = axis;
+            best_left = i;
+          }
+        }
+      }
+    }
+    if (count <= limit && !(best < local.leaf(count))) return leaf(first, count, node);
+    // The other orders follow: stable, so that they stay sorted.
+    uint64_t lower = 0;
+    for (size_t i = 0; i < count; ++i) {
+      const uint8_t k = order[best_axis][first + i];
+      (i < best_left ? below : above).add(references[k].box());
+      if (i < best_left) lower |= uint64_t(1) << k;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      if (axis == best_axis) continue;
+      uint8_t* const sorted = order[axis] + first;
+      uint8_t upper[kSmallSet];
+      size_t l = 0, u = 0;
+      for (size_t i = 0; i < count; ++i) {
+        const uint8_t k = sorted[i];
+        const size_t is_lower = lower >> k & 1;
+        sorted[l] = k;
+        upper[u] = k;
+        l += is_lower;
+        u += 1 - is_lower;
+      }
+      std::copy_n(upper, u, sorted + l);
+    }
+    node.axis = best_axis;
+    node.children = arena.pair();
+    node.children[0].box = below;
+    node.children[1].box = above;
+    build(first, best_left, depth + 1, node.children[0]);
+    build(first + best_left, count - best_left, depth + 1, node.children[1]);
+  }
+};
+
+}  // namespace
+
+void build_small(const Set& set, uint32_t depth, const Prices& prices, NodeArena& arena,
+                 BinaryNode& node) {
+  Small small{prices, arena, set.references(), set.rows(), {}};
+  small.sort();
+  node.box = set.box;
+  small.build(0, set.count, depth, node);
+}
+
+}  // namespace yat::tree
