@@ -40,6 +40,7 @@ TEST(Options, DefaultsLeaveTheSceneItsSay) {
   EXPECT_FALSE(line.arguments.max_depth);
   EXPECT_FALSE(line.arguments.crop);
   EXPECT_FALSE(line.arguments.tone_map);
+  EXPECT_EQ(line.arguments.tree, TreeChoice::kFromScene);
   EXPECT_EQ(line.arguments.sampler, SamplerKind::kSobol);
   EXPECT_EQ(line.arguments.threads, 0u);
   EXPECT_EQ(line.arguments.progress, ProgressKind::kAuto);
@@ -47,43 +48,16 @@ TEST(Options, DefaultsLeaveTheSceneItsSay) {
 }
 
 TEST(Options, EveryOptionIsRead) {
-  const Arguments a = parse({"render",
-                             "a.lxs",
-                             "-o",
-                             "b.png",
-                             "--output",
-                             "c.exr",
-                             "--spp",
-                             "32",
-                             "--time",
-                             "2.5",
-                             "--threads",
-                             "3",
-                             "--integrator",
-                             "direct",
-                             "--max-depth",
-                             "7",
-                             "--sampler",
-                             "independent",
-                             "--seed",
-                             "4294967295",
-                             "--resolution",
-                             "64x48",
-                             "--crop",
-                             "0,0.5,0.25,1",
-                             "--isa",
-                             "sse42",
-                             "--tonemap",
-                             "reinhard",
-                             "--exposure",
-                             "-1.5",
-                             "--stats",
-                             "s.json",
-                             "--trace",
-                             "t.json",
-                             "--progress",
-                             "json",
-                             "-v"})
+  const Arguments a = parse({"render",       "a.lxs",       "-o",          "b.png",
+                             "--output",     "c.exr",       "--spp",       "32",
+                             "--time",       "2.5",         "--threads",   "3",
+                             "--integrator", "direct",      "--max-depth", "7",
+                             "--sampler",    "independent", "--seed",      "4294967295",
+                             "--resolution", "64x48",       "--crop",      "0,0.5,0.25,1",
+                             "--isa",        "sse42",       "--tree",      "kd",
+                             "--tonemap",    "reinhard",    "--exposure",  "-1.5",
+                             "--stats",      "s.json",      "--trace",     "t.json",
+                             "--progress",   "json",        "-v"})
                           .arguments;
   EXPECT_EQ(a.outputs, (std::vector<std::string>{"b.png", "c.exr"}));
   EXPECT_EQ(a.samples_per_pixel, 32u);
@@ -97,6 +71,7 @@ TEST(Options, EveryOptionIsRead) {
   EXPECT_EQ(a.height, 48u);
   EXPECT_EQ(a.crop, (std::array<float, 4>{0, .5f, .25f, 1}));
   EXPECT_EQ(a.isa, "sse42");
+  EXPECT_EQ(a.tree, TreeChoice::kKd);
   EXPECT_EQ(a.tone_map, ToneMap::kReinhard);
   EXPECT_EQ(a.exposure_stops, -1.5f);
   EXPECT_EQ(a.stats_file, "s.json");

@@ -255,5 +255,24 @@ TEST_F(CompileOptionsTest, NoLightIsAWarning) {
   EXPECT_SAID("warning: the scene has no light that can be used: the picture will be black");
 }
 
+TEST_F(CompileOptionsTest, AcceleratorAndOptionChooseTheTree) {
+  const auto shape_of = [&](TreeChoice choice) {
+    options.tree = choice;
+    return compile().tree.statistics.shape;
+  };
+  EXPECT_EQ(shape_of(TreeChoice::kFromScene), TreeShape::kObjects);
+  EXPECT_EQ(shape_of(TreeChoice::kKd), TreeShape::kKd);
+  for (const char* name : {"kdtree", "tabreckdtree", "unsafekdtree"}) {
+    description.accelerator = plugin(name, {number("emptybonus", .5f)}, 12);
+    EXPECT_EQ(shape_of(TreeChoice::kFromScene), TreeShape::kKd) << name;
+    EXPECT_EQ(shape_of(TreeChoice::kAuto), TreeShape::kObjects) << name;
+  }
+  EXPECT_SILENT();
+  description.accelerator = plugin("qbvh", {integers("maxprimsperleaf", {4})}, 12);
+  EXPECT_EQ(shape_of(TreeChoice::kFromScene), TreeShape::kObjects);
+  EXPECT_SAID(
+      "scene.lxs:12:1: note: Accelerator \"qbvh\": yat builds the tree that suits the triangles");
+}
+
 }  // namespace
 }  // namespace yat

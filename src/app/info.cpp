@@ -106,6 +106,29 @@ std::string bins_of(const Scene& scene) {
   return text;
 }
 
+/// What the tree is split by, and why.
+std::string shape_of(const TreeStatistics& s) {
+  switch (s.shape) {
+    case TreeShape::kKd:
+      return "by planes alone, as asked for";
+    case TreeShape::kObjects:
+      if (s.planes_cost > 0)
+        return fmt::format(
+            "by objects: siblings overlap by {:.2f} of the bounds, but a ray alone would pay "
+            "{:.2f} "
+            "with planes, {:.2f} without",
+            s.overlap, s.planes_cost, s.objects_cost);
+      return fmt::format("by objects: siblings overlap by {:.2f} of the bounds, less than {}",
+                         s.overlap, kMuchOverlap);
+    case TreeShape::kObjectsAndPlanes:
+      return fmt::format(
+          "by objects and planes: without planes siblings would overlap by {:.2f} of the bounds "
+          "and a ray alone pay {:.2f}, not {:.2f}",
+          s.overlap, s.objects_cost, s.planes_cost);
+  }
+  return "";
+}
+
 std::string tree_of(const Tree& tree) {
   const TreeStatistics& s = tree.statistics;
   if (s.triangles == 0) return "Tree\n  none: no triangles\n";
@@ -113,10 +136,11 @@ std::string tree_of(const Tree& tree) {
       "Tree\n"
       "  {} references to {} triangles ({:.3f} each), {} nodes, {} leaves, {} blocks of {} ({:.1f} "
       "% full)\n"
-      "  deepest way {} nodes, SAH cost {:.2f}, built in {:.3f} s\n",
+      "  deepest way {} nodes, SAH cost {:.2f}, {} bytes, built in {:.3f} s\n"
+      "  split {}\n",
       s.references, s.triangles, double(s.references) / double(s.triangles), s.nodes, s.leaves,
-      s.blocks, tree.view.block_width, 100 * s.block_fill, s.max_depth, s.sah_cost,
-      s.build_seconds);
+      s.blocks, tree.view.block_width, 100 * s.block_fill, s.max_depth, s.sah_cost, tree.bytes(),
+      s.build_seconds, shape_of(s));
 }
 
 std::string memory_of(const Scene& scene) {

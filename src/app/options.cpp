@@ -38,6 +38,9 @@ constexpr OptionText kRenderOptions[] = {
     {"--resolution", "WxH", "the film's", "size of the full picture in pixels"},
     {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
     {"--isa", "NAME", "YAT_ISA, or the best here", "instruction set of the kernels"},
+    {"--tree", "auto|kd", "the scene's",
+     "tree over the triangles; auto: the fastest for them, kd: a strict kd-tree; the picture is "
+     "the same"},
     {"--tonemap", "NAME", "the film's",
      "linear, reinhard, autolinear, maxwhite or contrast; for .png and .jpg"},
     {"--exposure", "STOPS", "0", "brighten .png and .jpg by 2^STOPS before tone mapping"},
@@ -58,6 +61,9 @@ constexpr OptionText kInfoOptions[] = {
     {"--resolution", "WxH", "the film's", "size of the full picture in pixels"},
     {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
     {"--isa", "NAME", "YAT_ISA, or the best here", "instruction set of the kernels"},
+    {"--tree", "auto|kd", "the scene's",
+     "tree over the triangles; auto: the fastest for them, kd: a strict kd-tree; the picture is "
+     "the same"},
     {"-v,--verbose", "", "off", "say more: notes"},
     {"-q,--quiet", "", "off", "no warnings"},
     {"-h,--help", "", "", "print this"},
@@ -67,6 +73,8 @@ constexpr std::array<std::pair<std::string_view, Integrator>, 2> kIntegrators = 
     {{"path", Integrator::kPath}, {"direct", Integrator::kDirect}}};
 constexpr std::array<std::pair<std::string_view, SamplerKind>, 2> kSamplers = {
     {{"sobol", SamplerKind::kSobol}, {"independent", SamplerKind::kIndependent}}};
+constexpr std::array<std::pair<std::string_view, TreeChoice>, 2> kTrees = {
+    {{"auto", TreeChoice::kAuto}, {"kd", TreeChoice::kKd}}};
 constexpr std::array<std::pair<std::string_view, ToneMap>, 5> kToneMaps = {
     {{"linear", ToneMap::kLinear},
      {"reinhard", ToneMap::kReinhard},
@@ -133,7 +141,7 @@ std::array<T, N> numbers(std::string_view option, std::string_view text, char se
 /// Text of every option as given; read into Arguments once all are known.
 struct Given {
   std::string spp, samples_range, time, threads, integrator, max_depth, sampler, seed, resolution,
-      crop, tone_map, exposure, progress;
+      crop, tree, tone_map, exposure, progress;
   bool verbose = false, quiet = false;
 };
 
@@ -172,6 +180,7 @@ void add_shared(Adder& add, Arguments& arguments, Given& given) {
   add("--resolution", given.resolution);
   add("--crop", given.crop);
   add("--isa", arguments.isa);
+  add("--tree", given.tree);
   add("--verbose", given.verbose);
   add("--quiet", given.quiet);
 }
@@ -233,6 +242,7 @@ void read_given(const Given& given, Arguments& to) {
           fmt::format("--crop {}: empty; x0 must be below x1 and y0 below y1", given.crop));
     to.crop = crop;
   }
+  if (!given.tree.empty()) to.tree = by_name("--tree", given.tree, kTrees);
   if (!given.tone_map.empty()) to.tone_map = by_name("--tonemap", given.tone_map, kToneMaps);
   if (!given.exposure.empty())
     to.exposure_stops = number<float>("--exposure", given.exposure, given.exposure, -100.f, 100.f);

@@ -64,6 +64,7 @@ void compile(const Arguments& arguments, const KernelTable& kernels, ThreadPool&
              Diagnostics& diagnostics, Loaded& loaded) {
   CompileOptions options;
   options.block_width = kernels.lanes;
+  options.tree = arguments.tree;
   options.width = arguments.width;
   options.height = arguments.height;
   if (arguments.crop) {

@@ -154,6 +154,21 @@ void accept_silently(const std::optional<Plugin>& plugin) {
   for (const Parameter& parameter : plugin->parameters) parameter.used = true;
 }
 
+/// Trees give the same picture: what is asked for here is speed alone.
+bool wants_kd_tree(const std::optional<Plugin>& accelerator, TreeChoice choice,
+                   Diagnostics& diagnostics) {
+  accept_silently(accelerator);
+  if (choice != TreeChoice::kFromScene) return choice == TreeChoice::kKd;
+  if (!accelerator) return false;
+  // Three names of one thing.
+  for (const std::string_view name : {"kdtree", "tabreckdtree", "unsafekdtree"})
+    if (accelerator->type == name) return true;
+  diagnostics.note(accelerator->loc,
+                   fmt::format("Accelerator \"{}\": yat builds the tree that suits the triangles",
+                               accelerator->type));
+  return false;
+}
+
 }  // namespace
 
 Scene compile_scene(const Description& description, const CompileOptions& options, ThreadPool& pool,
@@ -166,7 +181,7 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   scene.max_depth = integrator.max_depth;
   scene.direct_only = integrator.direct_only;
   accept_silently(description.sampler);
-  accept_silently(description.accelerator);
+  const bool kd_tree = wants_kd_tree(description.accelerator, options.tree, diagnostics);
   accept_silently(description.renderer);
   accept_silently(description.volume_integrator);
 
@@ -206,8 +221,8 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   finish_lights(std::move(lights), double(scene.radius), scene);
 
   if (scene.triangles.size() > 0)
-    scene.tree = build_tree(scene.triangles.view(), occludes,
-                            {options.block_width, options.strict_kd_tree}, pool);
+    scene.tree =
+        build_tree(scene.triangles.view(), occludes, {options.block_width, kd_tree, {}}, pool);
   return scene;
 }
 

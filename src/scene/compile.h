@@ -26,12 +26,19 @@ struct Bin {
 };
 inline constexpr uint32_t kMaxBins = 64;  ///< 4 geometry kinds, 64 material kinds: in practice < 20
 
+/// --tree: which tree over the triangles.
+enum class TreeChoice {
+  kFromScene,  ///< a strict kd-tree where the scene says Accelerator "kdtree", else the best
+  kAuto,       ///< the best for the triangles
+  kKd,         ///< a strict kd-tree
+};
+
 struct CompileOptions {
   uint32_t block_width = 16;  ///< lanes of the kernels that will run: width of the tree's blocks
   uint32_t width = 0, height = 0;  ///< --resolution; 0: as the film says
   float crop[4] = {0, 1, 0, 1};    ///< --crop, fractions x0 x1 y0 y1; used if crop_given
   bool crop_given = false;
-  bool strict_kd_tree = false;
+  TreeChoice tree = TreeChoice::kFromScene;
 };
 
 /// The compiled scene: owns all columns.

@@ -11,8 +11,6 @@ namespace {
 
 using namespace tree;
 
-/// Overlap of sibling boxes in a tree of objects from which planes are worth a second build.
-constexpr double kMuchOverlap = 6;
 /// How much cheaper the tree with planes must be.
 constexpr double kPlaneGain = 0.95;
 
@@ -36,7 +34,9 @@ std::unique_ptr<BinaryTree> best_tree(const Rows<TriangleRow>& triangles,
   if (quality.overlap < kMuchOverlap) return best;
   best->storage->drop_references();
   std::unique_ptr<BinaryTree> other = build(TreeShape::kObjectsAndPlanes);
-  if (!(quality_of(*other).cost < kPlaneGain * quality.cost)) return best;
+  statistics.objects_cost = quality.cost;
+  statistics.planes_cost = quality_of(*other).cost;
+  if (!(statistics.planes_cost < kPlaneGain * quality.cost)) return best;
   statistics.shape = TreeShape::kObjectsAndPlanes;
   return other;
 }

@@ -12,6 +12,9 @@
 
 namespace yat {
 
+/// From this overlap of siblings in a tree of objects on, planes are tried.
+inline constexpr double kMuchOverlap = 6;
+
 /// How a tree is split.
 enum class TreeShape {
   kKd,                ///< by planes only; triangles that a plane cuts are on both sides
@@ -33,8 +36,11 @@ struct TreeStatistics {
   uint32_t max_depth = 0;  ///< 8-wide nodes on the longest way down
   double sah_cost = 0;     ///< expected cost of a random ray through the bounds, in the
                            ///< prices of tree_parts.h
-  double overlap = 0;      ///< of sibling boxes in the tree of objects, in areas of the bounds
-  double block_fill = 0;   ///< references / (blocks * block_width)
+  /// Of sibling boxes in the tree of objects, in areas of the bounds; 0 if none was built.
+  double overlap = 0;
+  /// Of a ray in lists of its own, for both shapes where both were built, else 0.
+  double objects_cost = 0, planes_cost = 0;
+  double block_fill = 0;  ///< references / (blocks * block_width)
   double build_seconds = 0;
 };
 
