@@ -29,10 +29,6 @@ struct EightBoxes<xsimd::avx512bw> {
 
 /// Lists this short are tested ray by ray.
 inline constexpr uint32_t kShortList = 6;
-/// From this length on a leaf tests W rays at once, if their number fills registers well enough
-/// against the triangles it holds.
-inline constexpr uint32_t kLeafLanes = 1;
-
 inline constexpr uint32_t kLeafBit = 0x80000000u;
 
 constexpr size_t list_words(uint32_t rays) {
@@ -56,7 +52,7 @@ struct Traversal {
   YAT_INLINE void prefetch(uint32_t child) const {
     if (child & kLeafBit) {
       const float* p = tree.blocks + size_t((child & ~kLeafBit) >> 5) * tree.block_width * 10;
-      for (uint32_t line = 0; line < tree.block_width * 10; line += 32)
+      for (uint32_t line = 0; line < tree.block_width * 10; line += 16)
         __builtin_prefetch(p + line);
     } else {
       const auto* p = reinterpret_cast<const char*>(tree.nodes + child);
@@ -64,59 +60,74 @@ struct Traversal {
     }
   }
 
-  /// Drops rays that have found something nearer than the box (closest) or at all (any) since the
-  /// list was made.
-  YAT_INLINE uint32_t drop_done(uint32_t* slots, const float* enter, uint32_t n) const {
+  /// Whether ray i of a list, whose limit is t by now, has found something nearer than the list's
+  /// box (closest) or anything at all (any).
+  YAT_INLINE static bool is_done(float t, const float* enter, uint32_t i) {
+    if constexpr (Q == Query::kClosest) return !(enter[i] <= t);
+    return !(t > 0.f);
+  }
+
+  /// Drops rays that are done since the list was made.
+  YAT_INLINE uint32_t drop_done(uint32_t* slots, float* enter, uint32_t n) const {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < n; ++i) {
       const uint32_t slot = slots[i];
-      const float t = records[size_t(slot) * kRecordWords + kRecordT];
       slots[kept] = slot;
-      if constexpr (Q == Query::kClosest) {
-        kept += uint32_t(enter[i] <= t);
-      } else {
-        kept += uint32_t(t > 0.f);
-      }
+      const bool done = is_done(records[size_t(slot) * kRecordWords + kRecordT], enter, i);
+      if constexpr (Q == Query::kClosest) enter[kept] = enter[i];
+      kept += uint32_t(!done);
     }
     return kept;
   }
 
+  /// A leaf with a list of less than W rays, ray by ray.
+  YAT_INLINE void visit_leaf_by_ray(uint32_t child, const uint32_t* slots, const float* enter,
+                                    uint32_t n) noexcept {
+    const uint32_t first = (child & ~kLeafBit) >> 5, blocks = (child & 31) + 1;
+    const uint32_t width = tree.block_width;
+    for (uint32_t i = 0; i < n;) {
+      // Rays of one kz find the triangles in registers.
+      const uint32_t begin = i, kz = kz_of(slots[i]);
+      while (++i < n && kz_of(slots[i]) == kz) {
+      }
+      const float* block = tree.blocks + size_t(first) * width * 10;
+      for (uint32_t b = 0; b < blocks; ++b, block += size_t(width) * 10)
+        for (uint32_t k = 0; k < width; k += W) {
+          if (k && block_prims(block, width)[k] == kNone) break;
+          const BlockTriangles<A> triangles(block, width, k, BlockAxes(kz, width),
+                                            tree.block_occluders[first + b]);
+          for (uint32_t r = begin; r < i; ++r) {
+            float* const record = records + size_t(slots[r]) * kRecordWords;
+            if (is_done(record[kRecordT], enter, r)) continue;
+            test_block<A, Q>(triangles, record, count);
+          }
+        }
+    }
+  }
+
+  /// A leaf with a longer list, W rays at a time.
   YAT_INLINE void visit_leaf(uint32_t child, uint32_t* slots, uint32_t n) noexcept {
     const uint32_t first = (child & ~kLeafBit) >> 5, blocks = (child & 31) + 1;
     const uint32_t width = tree.block_width;
     const float* const block = tree.blocks + size_t(first) * width * 10;
     const uint32_t* const occluders = tree.block_occluders + first;
-    if (n >= kLeafLanes * W) {
-      UInt<A>(slots[0]).store_unaligned(slots + n);  // Padding that is safe to load.
-      for (uint32_t i = 0; i < n; i += W) {
-        Float<A> ray[8];
-        load_rows8<A>(records + kRecordTriangle, slots + i, kRecordWords, ray);
-        const uint32_t last = slots[(n - i < W ? n - i : W) + i - 1];
-        const uint32_t from = kz_of(slots[i]), to = kz_of(last);
-        const UInt<A> slot = load<A>(slots, i);
-        for (uint32_t kz = from; kz <= to; ++kz) {
-          Mask<A> active = tail_mask<A>(i, n);
-          if (from != to) {
-            const uint32_t begin = kz == 0 ? 0 : kz == 1 ? second_kz : third_kz;
-            const uint32_t end = kz == 0 ? second_kz : kz == 1 ? third_kz : kNone;
-            active = active & mask_of<A>(slot >= UInt<A>(begin)) & mask_of<A>(slot < UInt<A>(end));
-            if (!any<A>(active)) continue;
-          }
-          test_rays<A, Q>(block, blocks, width, BlockAxes(kz, width), occluders, ray, active,
-                          records, slots + i, count);
+    UInt<A>(slots[0]).store_unaligned(slots + n);  // Padding that is safe to load.
+    for (uint32_t i = 0; i < n; i += W) {
+      Float<A> ray[8];
+      load_rows8<A>(records + kRecordTriangle, slots + i, kRecordWords, ray);
+      const uint32_t last = slots[(n - i < W ? n - i : W) + i - 1];
+      const uint32_t from = kz_of(slots[i]), to = kz_of(last);
+      const UInt<A> slot = load<A>(slots, i);
+      for (uint32_t kz = from; kz <= to; ++kz) {
+        Mask<A> active = tail_mask<A>(i, n);
+        if (from != to) {
+          const uint32_t begin = kz == 0 ? 0 : kz == 1 ? second_kz : third_kz;
+          const uint32_t end = kz == 0 ? second_kz : kz == 1 ? third_kz : kNone;
+          active = active & mask_of<A>(slot >= UInt<A>(begin)) & mask_of<A>(slot < UInt<A>(end));
+          if (!any<A>(active)) continue;
         }
-      }
-      return;
-    }
-    for (uint32_t i = 0; i < n; ++i) {
-      float* const record = records + size_t(slots[i]) * kRecordWords;
-      const BlockAxes axes(kz_of(slots[i]), width);
-      for (uint32_t b = 0; b < blocks; ++b) {
-        if (test_block<A, Q>(block + size_t(b) * width * 10, width, axes, occluders[b], record,
-                             count)) {
-          record[kRecordT] = -1.f;
-          break;
-        }
+        test_rays<A, Q>(block, blocks, width, BlockAxes(kz, width), occluders, ray, active, records,
+                        slots + i, count);
       }
     }
   }
@@ -226,13 +237,19 @@ struct Traversal {
     for (uint32_t k = 0; k < children; ++k, order >>= 3) {
       const uint32_t c = order & 7;
       if (!lengths[c]) continue;
-      const uint32_t left = drop_done(lists[c], enters[c], lengths[c]);
+      const uint32_t child = node.child[c];
+      const bool leaf = child & kLeafBit;
+      // Short lists find out by themselves.
+      uint32_t left = lengths[c];
+      if (left >= W) left = drop_done(lists[c], enters[c], left);
       if (!left) continue;
-      if (node.child[c] & kLeafBit) {
-        visit_leaf(node.child[c], lists[c], left);
+      if (leaf && left < W) {
+        visit_leaf_by_ray(child, lists[c], enters[c], left);
+      } else if (leaf) {
+        visit_leaf(child, lists[c], left);
       } else {
         UInt<A>(lists[c][0]).store_unaligned(lists[c] + left);  // Padding that is safe to load.
-        visit(node.child[c], lists[c], left, arena);
+        visit(child, lists[c], left, arena);
       }
     }
   }

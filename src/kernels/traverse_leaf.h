@@ -78,63 +78,72 @@ YAT_INLINE const uint32_t* block_prims(const float* block, uint32_t width) {
   return reinterpret_cast<const uint32_t*>(block + 9 * width);
 }
 
-/// One ray against the triangles of one block. Returns true where an any-hit ray is stopped.
+/// W triangles of a block in registers, for one ray after the other.
+template <class A>
+struct BlockTriangles {
+  Float<A> x[3], y[3], z[3];
+  const uint32_t* prims;
+  uint32_t occluders;
+  YAT_INLINE BlockTriangles(const float* block, uint32_t width, uint32_t first,
+                            const BlockAxes& axes, uint32_t block_occluders)
+      : prims(block_prims(block, width) + first), occluders(block_occluders >> first) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const float* const p = block + 3 * k * width + first;
+      x[k] = Float<A>::load_unaligned(p + axes.x);
+      y[k] = Float<A>::load_unaligned(p + axes.y);
+      z[k] = Float<A>::load_unaligned(p + axes.z);
+    }
+  }
+};
+
+/// One ray against W triangles: leaves its answer in the record.
 template <class A, Query Q>
-YAT_INLINE bool test_block(const float* block, uint32_t width, const BlockAxes& axes,
-                           uint32_t occluders, float* record, LaneCount& count) {
+YAT_INLINE void test_block(const BlockTriangles<A>& block, float* record, LaneCount& count) {
   constexpr uint32_t W = kLanes<A>;
-  const uint32_t* const prims = block_prims(block, width);
   const Float<A> org[3] = {Float<A>(record[9]), Float<A>(record[10]), Float<A>(record[11])};
   const Float<A> shear[3] = {Float<A>(record[12]), Float<A>(record[13]), Float<A>(record[14])};
   const Float<A> zero(0.f);
-  for (uint32_t first = 0; first < width; first += W) {
-    if (first && prims[first] == kNone) break;
-    const auto vertex = [&](uint32_t k) {
-      const float* const p = block + 3 * k * width + first;
-      return ShearedVertex<A>(Float<A>::load_unaligned(p + axes.x),
-                              Float<A>::load_unaligned(p + axes.y),
-                              Float<A>::load_unaligned(p + axes.z), org, shear);
-    };
-    count.rows += W;
-    ++count.steps;
-    const Float<A> t_max(record[kRecordT]);
-    TriangleHits<A> h;
-    const bool found = test_triangles<A>(
-        vertex(0), vertex(1), vertex(2), shear[2],
-        [&](const Float<A>& t) {
-          return Q == Query::kClosest ? (t > zero) & (t <= t_max) : (t > zero) & (t < t_max);
-        },
-        h);
-    if (!found) continue;
-    uint32_t bits = mask_bits<A>(h.hit);
-    if constexpr (Q == Query::kAnyMasked) bits &= occluders >> first;
-    if (!bits) continue;
-    if constexpr (Q != Query::kClosest) {
-      return true;
-    } else {
-      alignas(64) float t[W];
-      h.t.store_aligned(t);
-      uint32_t best = uint32_t(__builtin_ctz(bits));
-      for (bits &= bits - 1; bits; bits &= bits - 1) {
-        const uint32_t lane = uint32_t(__builtin_ctz(bits));
-        // Primitives ascend within a block: of equal distances the first lane wins.
-        if (t[lane] < t[best]) best = lane;
-      }
-      const uint32_t prim = prims[first + best];
-      uint32_t held;
-      __builtin_memcpy(&held, record + kRecordPrim, 4);
-      if (t[best] < record[kRecordT] || prim < held) {
-        alignas(64) float u[W], v[W];
-        h.u.store_aligned(u);
-        h.v.store_aligned(v);
-        record[kRecordT] = t[best];
-        record[kRecordU] = u[best];
-        record[kRecordV] = v[best];
-        __builtin_memcpy(record + kRecordPrim, &prim, 4);
-      }
+  const auto vertex = [&](uint32_t k) {
+    return ShearedVertex<A>(block.x[k], block.y[k], block.z[k], org, shear);
+  };
+  count.rows += W;
+  ++count.steps;
+  const Float<A> t_max(record[kRecordT]);
+  TriangleHits<A> h;
+  const bool found = test_triangles<A>(
+      vertex(0), vertex(1), vertex(2), shear[2],
+      [&](const Float<A>& t) {
+        return Q == Query::kClosest ? (t > zero) & (t <= t_max) : (t > zero) & (t < t_max);
+      },
+      h);
+  if (!found) return;
+  uint32_t bits = mask_bits<A>(h.hit);
+  if constexpr (Q == Query::kAnyMasked) bits &= block.occluders;
+  if (!bits) return;
+  if constexpr (Q != Query::kClosest) {
+    record[kRecordT] = -1.f;
+  } else {
+    alignas(64) float t[W];
+    h.t.store_aligned(t);
+    uint32_t best = uint32_t(__builtin_ctz(bits));
+    for (bits &= bits - 1; bits; bits &= bits - 1) {
+      const uint32_t lane = uint32_t(__builtin_ctz(bits));
+      // Primitives ascend within a block: of equal distances the first lane wins.
+      if (t[lane] < t[best]) best = lane;
+    }
+    const uint32_t prim = block.prims[best];
+    uint32_t held;
+    __builtin_memcpy(&held, record + kRecordPrim, 4);
+    if (t[best] < record[kRecordT] || prim < held) {
+      alignas(64) float u[W], v[W];
+      h.u.store_aligned(u);
+      h.v.store_aligned(v);
+      record[kRecordT] = t[best];
+      record[kRecordU] = u[best];
+      record[kRecordV] = v[best];
+      __builtin_memcpy(record + kRecordPrim, &prim, 4);
     }
   }
-  return false;
 }
 
 /// W rays of one kz (lanes in `active`) against every triangle of `blocks` blocks.

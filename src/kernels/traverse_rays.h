@@ -21,8 +21,8 @@ enum class Query { kClosest, kAny, kAnyMasked };
 inline constexpr uint32_t kRecordWords = 16;
 inline constexpr uint32_t kRecordV = 0, kRecordU = 1, kRecordBox = 1, kRecordT = 8,
                           kRecordTriangle = 8, kRecordPrim = 15;
-/// Rays traced together; a longer call is cut. 64-byte records: 1 MB.
-inline constexpr uint32_t kStreamRays = 16384;
+/// Rays traced together; a longer call is cut. 64-byte records: 4 MB.
+inline constexpr uint32_t kStreamRays = 65536;
 inline constexpr uint32_t kClasses = 24;  ///< octant * 3 + kz for closest, kz for any hit
 
 /// Records and order of the rays of one stream, in scratch memory.
