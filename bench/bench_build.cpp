@@ -189,9 +189,10 @@ void run_table(const Options& options) {
       const std::vector<Series> all = measure_in_turn(builds, options);
       print_row(scene, threads, statistics, all);
       report["rows"].push_back(json_row(scene, threads, statistics, all));
+      // After every row: what is measured is not lost when the rest is cut off.
+      if (!options.json.empty()) write_json(options.json, report);
     }
   });
-  if (!options.json.empty()) write_json(options.json, report);
 }
 
 void run_benchmarks(const Options& options) {

@@ -66,7 +66,6 @@ void for_each_scene(const Options& options, F&& f) {
   const auto with = [&](Recording recording) {
     f(prepare(std::move(recording), options.resolution, options.traced));
   };
-  for (const std::string& name : options.scenes) with({generated_scene(name), {}});
   for (const std::string& file : options.files)
     if (file.ends_with(".lxs")) {
       with(record_file(file));
@@ -75,6 +74,7 @@ void for_each_scene(const Options& options, F&& f) {
     }
   for (const std::string& mesh : options.open_meshes) with({mesh_as_it_is(mesh), {}});
   for (const std::string& file : options.ray_files) with(read_rays(file));
+  for (const std::string& name : options.scenes) with({generated_scene(name), {}});
 }
 
 int run_tables(const Options& options) {
@@ -88,9 +88,10 @@ int run_tables(const Options& options) {
   uint64_t wrong = 0;
   for_each_scene(options, [&](std::unique_ptr<Prepared> prepared) {
     report["scenes"].push_back(run_table(*prepared, options.traced, wrong));
+    // After every scene: what is measured is not lost when the rest is cut off.
+    if (!options.json.empty()) write_json(options.json, report);
   });
   print_summary(report["scenes"]);
-  if (!options.json.empty()) write_json(options.json, report);
   if (wrong == 0) return 0;
   std::fprintf(stderr, "bench_traversal: %llu answers of yat are wrong: see the rows marked ***\n",
                static_cast<unsigned long long>(wrong));
@@ -127,6 +128,8 @@ void describe(CLI::App& app, Options& options) {
       ->check(CLI::Range(1, 1024));
   app.add_option("--repetitions", options.traced.repetitions, "Rounds, of which medians are shown")
       ->check(CLI::Range(1, 1000));
+  app.add_option("--seconds", options.traced.seconds,
+                 "After three rounds, start no other once a set has taken this long");
   app.add_flag("--no-embree", options.no_embree, "yat alone");
   app.add_option("--rays", options.ray_files, "A file made by record_rays (repeatable)")
       ->allow_extra_args(false);

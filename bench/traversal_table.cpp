@@ -307,7 +307,9 @@ Json run_table(const Prepared& prepared, const TableOptions& options, uint64_t& 
   std::vector<Mix> mix(prepared.configs.size());
   for (const RaySet& set : prepared.sets) {
     SetRow row(prepared, set);
+    const double start = wall_seconds();
     for (uint32_t round = 0; round < options.repetitions; ++round) {
+      if (round >= 3 && wall_seconds() - start > options.seconds) break;
       for (size_t c = 0; c < row.configs(); ++c) row.time_ours(c, options);
 #if defined(YAT_WITH_EMBREE)
       if (options.embree) {

@@ -18,6 +18,7 @@ struct TableOptions {
   std::vector<std::string> kernels;  ///< "stream", "scalar"
   std::vector<uint32_t> threads;     ///< beside 1
   uint32_t repetitions = 7;
+  double seconds = 60;  ///< after three rounds, start no other once a set has taken this long
   bool embree = true;
 };
 

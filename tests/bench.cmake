@@ -1,6 +1,6 @@
 # Every benchmark starts and does a minimal case; what it writes is read back. No time is asserted.
 if(YAT_BUILD_BENCH)
-  yat_test(benches LABELS fast LIBS yat_bench SOURCES test_benches.cpp test_judge.cpp
+  yat_test(benches LABELS fast LIBS yat_bench SOURCES test_benches.cpp test_judge.cpp test_measure.cpp
                                               test_rays_file.cpp test_record_scene.cpp
                                               test_scalar_trace.cpp)
   add_dependencies(test_benches bench_build bench_kernels bench_render bench_traversal record_rays)

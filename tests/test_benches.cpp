@@ -134,7 +134,8 @@ TEST_F(Benches, TraversalTableComparesAnswers) {
     }
   }
   EXPECT_EQ(report["scenes"][1]["scene"], "mesh");
-  EXPECT_EQ(report["scenes"][0]["rows"].size(), 7u);  // All sets: the box is not closed in front.
+  EXPECT_EQ(report["scenes"][2]["scene"], "cornell");
+  EXPECT_EQ(report["scenes"][2]["rows"].size(), 7u);  // All sets: the box is not closed in front.
 }
 
 TEST_F(Benches, RecordedRaysAreTraced) {

@@ -52,6 +52,10 @@ def _scene(scene):
     if embree:
         mix = [_mix_ratio(scene, c) for c in range(len(configs))]
         rows.append(["path mix", ""] + [f"**{m:.2f}**" for m in mix] + ["", ""])
+    elif len(configs) > 1:
+        rows.append(["speed of the path mix", ""]
+                    + [f"**{_seconds(scene, 0) / _seconds(scene, c):.2f}**"
+                       for c in range(len(configs))])
     return lines + table(["rays", "number"] + configs
                          + (["Embree's best", "variant, build"] if embree else []), rows)
 
