@@ -2,6 +2,7 @@
 target_sources(
   yat_scene
   PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/alias_table.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/colour_model.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_camera.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_film.cpp
