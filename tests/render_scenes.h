@@ -18,20 +18,23 @@ namespace yat {
 
 /// Compiles a scene for the kernels that will run. Warnings fail the test: these scenes are ours.
 inline Scene compile_description(const Description& description, const KernelTable& kernels,
-                                 Diagnostics& diagnostics, uint32_t width = 0,
-                                 uint32_t height = 0) {
+                                 Diagnostics& diagnostics, uint32_t width = 0, uint32_t height = 0,
+                                 ColourMode colour = ColourMode::kBands) {
   CompileOptions options;
   options.block_width = kernels.lanes;
   options.width = width;
   options.height = height;
+  options.colour = colour;
   ThreadPool pool(1);
   return compile_scene(description, options, pool, diagnostics);
 }
-inline Scene compile_text(const std::string& text, const KernelTable& kernels) {
+inline Scene compile_text(const std::string& text, const KernelTable& kernels,
+                          ColourMode colour = ColourMode::kBands) {
   Diagnostics diagnostics([](Severity severity, std::string_view line) {
     if (severity != Severity::kNote) ADD_FAILURE() << line;
   });
-  return compile_description(parse_scene(text, "test.lxs", ".", diagnostics), kernels, diagnostics);
+  return compile_description(parse_scene(text, "test.lxs", ".", diagnostics), kernels, diagnostics,
+                             0, 0, colour);
 }
 
 inline Film render_film(const Scene& scene, const Plan& plan, uint32_t first, uint32_t end,

@@ -42,23 +42,22 @@ TEST(Options, DefaultsLeaveTheSceneItsSay) {
   EXPECT_FALSE(line.arguments.tone_map);
   EXPECT_EQ(line.arguments.tree, TreeChoice::kFromScene);
   EXPECT_EQ(line.arguments.sampler, SamplerKind::kSobol);
+  EXPECT_EQ(line.arguments.colour, ColourMode::kBands);
   EXPECT_EQ(line.arguments.threads, 0u);
   EXPECT_EQ(line.arguments.progress, ProgressKind::kAuto);
   EXPECT_EQ(line.arguments.verbosity, Verbosity::kNormal);
 }
 
 TEST(Options, EveryOptionIsRead) {
-  const Arguments a = parse({"render",       "a.lxs",       "-o",          "b.png",
-                             "--output",     "c.exr",       "--spp",       "32",
-                             "--time",       "2.5",         "--threads",   "3",
-                             "--integrator", "direct",      "--max-depth", "7",
-                             "--sampler",    "independent", "--seed",      "4294967295",
-                             "--resolution", "64x48",       "--crop",      "0,0.5,0.25,1",
-                             "--isa",        "sse42",       "--tree",      "kd",
-                             "--tonemap",    "reinhard",    "--exposure",  "-1.5",
-                             "--stats",      "s.json",      "--trace",     "t.json",
-                             "--progress",   "json",        "-v"})
-                          .arguments;
+  const Arguments a =
+      parse({"render",       "a.lxs",      "-o",           "b.png", "--output",  "c.exr",
+             "--spp",        "32",         "--time",       "2.5",   "--threads", "3",
+             "--integrator", "direct",     "--max-depth",  "7",     "--sampler", "independent",
+             "--seed",       "4294967295", "--resolution", "64x48", "--crop",    "0,0.5,0.25,1",
+             "--isa",        "sse42",      "--tree",       "kd",    "--tonemap", "reinhard",
+             "--exposure",   "-1.5",       "--colour",     "rgb",   "--stats",   "s.json",
+             "--trace",      "t.json",     "--progress",   "json",  "-v"})
+          .arguments;
   EXPECT_EQ(a.outputs, (std::vector<std::string>{"b.png", "c.exr"}));
   EXPECT_EQ(a.samples_per_pixel, 32u);
   EXPECT_EQ(a.time_limit, 2.5);
@@ -66,6 +65,7 @@ TEST(Options, EveryOptionIsRead) {
   EXPECT_EQ(a.integrator, Integrator::kDirect);
   EXPECT_EQ(a.max_depth, 7u);
   EXPECT_EQ(a.sampler, SamplerKind::kIndependent);
+  EXPECT_EQ(a.colour, ColourMode::kRgb);
   EXPECT_EQ(a.seed, 4294967295u);
   EXPECT_EQ(a.width, 64u);
   EXPECT_EQ(a.height, 48u);
@@ -303,7 +303,7 @@ TEST(Report, ReplayCropsToTheVeryPixel) {
       EXPECT_EQ(std::ceil(float(width) * x0), float(x)) << command;
       EXPECT_EQ(std::ceil(float(width) * x1), float(x + 1)) << command;
       EXPECT_NE(command.find("--samples-range 3,4"), std::string::npos);
-      EXPECT_NE(command.find("--seed 7"), std::string::npos);
+      EXPECT_NE(command.find("--colour bands --seed 7"), std::string::npos);
     }
 }
 

@@ -13,8 +13,11 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-double y_of(const LightRow<Value>& l) {
-  return luminance({double(l.radiance_r), double(l.radiance_g), double(l.radiance_b)});
+glm::dvec3 bands_of_row(const LightRow<Value>& l) {
+  return {l.radiance_r, l.radiance_g, l.radiance_b};
+}
+double y_of(const Scene& scene, const LightRow<Value>& l) {
+  return luminance(to_rgb(bands_of_row(l), scene.colour.film));
 }
 Matrix scale(double x, double y, double z) {
   return glm::scale(Matrix(1.), glm::dvec3(x, y, z));
@@ -44,9 +47,15 @@ TEST_F(CompileLights, PowerRule) {
   ASSERT_EQ(scene.lights.size(), 2u);
   const auto l = scene.lights.row(0);
   // gain * power * efficacy / (pi * area); the classic renderer's own figure is rounded to 741.57.
-  EXPECT_NEAR(y_of(l), 2 * 1700 / (kPi * std::pow(12.080706596374512 * 2 * double(h), 2)), 1e-4);
-  EXPECT_NEAR(y_of(l), 741.57, .02);
-  EXPECT_NEAR(double(l.radiance_g / l.radiance_r), .91917193, 1e-6);
+  EXPECT_NEAR(y_of(scene, l), 2 * 1700 / (kPi * std::pow(12.080706596374512 * 2 * double(h), 2)),
+              1e-4);
+  EXPECT_NEAR(y_of(scene, l), 741.57, .02);
+  // The hue is that of L in bands.
+  const glm::dvec3 hue = to_bands({1, double(.91917193f), double(.62339652f)}, scene.colour.light);
+  const glm::dvec3 bands = bands_of_row(l);
+  EXPECT_NEAR(bands.y / bands.x, hue.y / hue.x, 1e-6);
+  EXPECT_NEAR(bands.z / bands.x, hue.z / hue.x, 1e-6);
+  EXPECT_GT(std::fabs(hue.z / hue.x - double(.62339652f)), .01);
   EXPECT_NEAR(l.extra, 12.0807 * 12.0807 * .1 * .1 / 2, 1e-4);
   EXPECT_EQ(l.kind, uint32_t(LightKind::kTriangle));
   // b x c is the outside: this lamp faces down.
@@ -70,7 +79,7 @@ TEST_F(CompileLights, SphereAreaIgnoresTheTransform) {
   const Scene scene = compile();
   const auto l = scene.lights.row(0);
   EXPECT_EQ(l.kind, uint32_t(LightKind::kSphere));
-  EXPECT_NEAR(y_of(l), 1700 / (kPi * 4 * kPi * .25), 1e-3);
+  EXPECT_NEAR(y_of(scene, l), 1700 / (kPi * 4 * kPi * .25), 1e-3);
   EXPECT_EQ(l.extra, 1);
   EXPECT_EQ(l.b_x, 0);
   EXPECT_EQ(scene.spheres.row(0).light, 0u);
@@ -87,7 +96,8 @@ TEST_F(CompileLights, InstancedLightShinesOncePerInstanceByItsOwnArea) {
   description.instances.push_back({0, translate(0, 0, 3), kNone, {}});
   const Scene scene = compile();
   ASSERT_EQ(scene.lights.size(), 4u);
-  for (uint32_t i = 0; i < 4; ++i) EXPECT_NEAR(y_of(scene.lights.row(i)), 1700 / (4 * kPi), 1e-3);
+  for (uint32_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(y_of(scene, scene.lights.row(i)), 1700 / (4 * kPi), 1e-3);
   EXPECT_FLOAT_EQ(scene.lights.row(0).extra, 8);
   // The larger copy has four times the power.
   EXPECT_FLOAT_EQ(scene.lights.row(0).probability, .4f);
@@ -133,7 +143,7 @@ TEST_F(CompileLights, PointLight) {
   EXPECT_DOUBLE_EQ(double(l.a_x) + scene.center.x, 11);
   EXPECT_DOUBLE_EQ(double(l.a_y) + scene.center.y, 2);
   EXPECT_EQ(l.radiance_g, 3);
-  EXPECT_NEAR(y_of(scene.lights.row(1)), 1700 / (4 * kPi), 1e-3);
+  EXPECT_NEAR(y_of(scene, scene.lights.row(1)), 1700 / (4 * kPi), 1e-3);
   EXPECT_NEAR(double(scene.lights.row(1).probability), 1700 / (4 * kPi) / (3 + 1700 / (4 * kPi)),
               1e-6);
 }

@@ -27,7 +27,10 @@ Record<Value> row_of(const Scene& scene, MaterialKind kind, uint32_t row = 0) {
 
 class CompileMaterials : public SceneTest {
  protected:
-  CompileMaterials() { light(plugin("point", {})); }
+  CompileMaterials() {
+    light(plugin("point", {}));
+    options.colour = ColourMode::kRgb;  // rows then hold the channels that the tests name
+  }
   Scene with(Plugin m) {
     description.shapes.clear();
     shape(square()).material = material(std::move(m));
@@ -51,6 +54,30 @@ TEST_F(CompileMaterials, EachKindHasItsRow) {
   EXPECT_EQ(glass.kt_r, .5f);
   EXPECT_EQ(glass.kr_r, 1);
   EXPECT_EQ(glass.index, 1.33f);
+  EXPECT_SILENT();
+}
+
+TEST_F(CompileMaterials, ReflectancesAreInBands) {
+  options.colour = ColourMode::kBands;
+  const auto expect_bands = [](float r, float g, float b, const glm::vec3& rgb) {
+    const glm::vec3 bands(to_bands(rgb, colour_model(ColourMode::kBands).reflectance));
+    EXPECT_NE(bands, rgb);
+    EXPECT_EQ(glm::vec3(r, g, b), bands);
+  };
+  const auto matte = row_of<MatteParameters>(with(plugin("matte", {color("Kd", .1f, .2f, .3f)})),
+                                             MaterialKind::kMatte);
+  expect_bands(matte.kd_r, matte.kd_g, matte.kd_b, {.1f, .2f, .3f});
+  const auto rough = row_of<OrenNayarParameters>(
+      with(plugin("matte", {color("Kd", 1, 0, .5f), number("sigma", 20)})),
+      MaterialKind::kOrenNayar);
+  expect_bands(rough.kd_r, rough.kd_g, rough.kd_b, {1, 0, .5f});
+  const auto mirror = row_of<MirrorParameters>(with(plugin("mirror", {color("Kr", 1, .9f, .5f)})),
+                                               MaterialKind::kMirror);
+  expect_bands(mirror.kr_r, mirror.kr_g, mirror.kr_b, {1, .9f, .5f});
+  const auto glass = row_of<GlassParameters>(
+      with(plugin("glass", {color("Kr", 0, 1, 0), color("Kt", .5f, 1, 1)})), MaterialKind::kGlass);
+  expect_bands(glass.kr_r, glass.kr_g, glass.kr_b, {0, 1, 0});
+  expect_bands(glass.kt_r, glass.kt_g, glass.kt_b, {.5f, 1, 1});
   EXPECT_SILENT();
 }
 

@@ -84,6 +84,55 @@ TEST_P(Renders, LitPlaneByLambertsFormula) {
   expect_value(mean_radiance(text, 64, 1, Integrator::kDirect), exact);
 }
 
+TEST_P(Renders, ColoursMultiplyInBands) {
+  // Seen by way of a blue mirror, a warm lamp on a red floor: the same paths as without colours,
+  // with every band of lamp, mirror and floor multiplied, and on the film as linear Rec.709.
+  const auto text = [](const std::string& lamp, const std::string& mirror,
+                       const std::string& floor) {
+    return view_text("0 -1 1", "0 1 .5", 12, 4, 4) + "Material \"mirror\" \"color Kr\" [" + mirror +
+           "]\n" + quad_text("-9 1 -9", "9 1 -9", "9 1 9", "-9 1 9") + matte_text(floor) +
+           quad_text("-50 -50 0", "50 -50 0", "50 50 0", "-50 50 0") +
+           "LightSource \"point\" \"point from\" [0 -3 2] \"color L\" [" + lamp + "]\nWorldEnd\n";
+  };
+  const glm::dvec3 lamp(8, 6, 4), mirror(.25, .5, 1), floor(.75, .125, .0625);
+  for (const ColourMode mode : {ColourMode::kBands, ColourMode::kRgb}) {
+    const auto picture = [&](const std::string& description) {
+      const Scene scene = compile_text(description, kernels(), mode);
+      PlanOptions options;
+      options.max_depth = 2;  // no roulette, which colours would change
+      return render_film(scene, make_plan(scene, kernels(), options), 0, 16).resolve();
+    };
+    const std::vector<float> grey = picture(text("1 1 1", "1 1 1", "1 1 1"));
+    const std::vector<float> coloured = picture(text("8 6 4", ".25 .5 1", ".75 .125 .0625"));
+    const ColourModel& model = colour_model(mode);
+    const glm::dvec3 rgb =
+        to_rgb(to_bands(lamp, model.light) * to_bands(mirror, model.reflectance) *
+                   to_bands(floor, model.reflectance),
+               model.film);
+    if (mode == ColourMode::kRgb) {
+      EXPECT_EQ(rgb, lamp * mirror * floor);
+    }
+    for (size_t i = 0; i < grey.size(); ++i) {
+      EXPECT_GT(grey[i], 0);
+      EXPECT_NEAR(double(coloured[i]), rgb[int(i % 3)] * double(grey[i]), 2e-6 * double(grey[i]));
+    }
+  }
+}
+
+TEST_P(Renders, GreyHasTheSameBitsInBothColourModes) {
+  const std::string text = view_text("0.1 -.6 .2", "0 .2 0", 70, 8, 8) + matte_text(".7 .7 .7") +
+                           room_text(1) + "Material \"mirror\" \"color Kr\" [.6 .6 .6]\n" +
+                           sphere_text(".3 .3 -.4", .3) + "AttributeBegin\n" + light_text("5 5 5") +
+                           sphere_text("-.3 .2 .6", .2) + "AttributeEnd\nWorldEnd\n";
+  PlanOptions options;
+  options.max_depth = 20;
+  const auto film = [&](ColourMode mode) {
+    const Scene scene = compile_text(text, kernels(), mode);
+    return render_film(scene, make_plan(scene, kernels(), options), 0, 16);
+  };
+  EXPECT_TRUE(same_bits(film(ColourMode::kBands), film(ColourMode::kRgb)));
+}
+
 TEST_P(Renders, SphereLightOverAnInfinitePlane) {
   // Radius 1, centre 3 overhead: E = pi / 9.
   const std::string text = view_text("4 -4 1", "0 0 0", .02, 2, 2) + matte_text(".5 .5 .5") +

@@ -34,6 +34,8 @@ constexpr OptionText kRenderOptions[] = {
     {"--max-depth", "N", "the scene's",
      "vertices after which a path ends; 0 sees light sources only"},
     {"--sampler", "sobol|independent", "sobol", "where random numbers come from"},
+    {"--colour", "bands|rgb", "bands",
+     "how colours multiply: bands: as LuxRender's spectra do; rgb: channel by channel"},
     {"--seed", "N", "0", "another seed gives another, independent picture"},
     {"--resolution", "WxH", "the film's", "size of the full picture in pixels"},
     {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
@@ -75,6 +77,8 @@ constexpr std::array<std::pair<std::string_view, SamplerKind>, 2> kSamplers = {
     {{"sobol", SamplerKind::kSobol}, {"independent", SamplerKind::kIndependent}}};
 constexpr std::array<std::pair<std::string_view, TreeChoice>, 2> kTrees = {
     {{"auto", TreeChoice::kAuto}, {"kd", TreeChoice::kKd}}};
+constexpr std::array<std::pair<std::string_view, ColourMode>, 2> kColourModes = {
+    {{"bands", ColourMode::kBands}, {"rgb", ColourMode::kRgb}}};
 constexpr std::array<std::pair<std::string_view, ToneMap>, 5> kToneMaps = {
     {{"linear", ToneMap::kLinear},
      {"reinhard", ToneMap::kReinhard},
@@ -140,8 +144,8 @@ std::array<T, N> numbers(std::string_view option, std::string_view text, char se
 
 /// Text of every option as given; read into Arguments once all are known.
 struct Given {
-  std::string spp, samples_range, time, threads, integrator, max_depth, sampler, seed, resolution,
-      crop, tree, tone_map, exposure, progress;
+  std::string spp, samples_range, time, threads, integrator, max_depth, sampler, colour, seed,
+      resolution, crop, tree, tone_map, exposure, progress;
   bool verbose = false, quiet = false;
 };
 
@@ -191,6 +195,7 @@ void add_render(Adder& add, Arguments& arguments, Given& given) {
   add("--spp", given.spp);
   add("--samples-range", given.samples_range);
   add("--time", given.time);
+  add("--colour", given.colour);
   add("--seed", given.seed);
   add("--tonemap", given.tone_map);
   add("--exposure", given.exposure);
@@ -225,6 +230,7 @@ void read_given(const Given& given, Arguments& to) {
   if (!given.max_depth.empty())
     to.max_depth = number<uint32_t>("--max-depth", given.max_depth, given.max_depth, 0, 65535);
   if (!given.sampler.empty()) to.sampler = by_name("--sampler", given.sampler, kSamplers);
+  if (!given.colour.empty()) to.colour = by_name("--colour", given.colour, kColourModes);
   if (!given.seed.empty())
     to.seed =
         number<uint32_t>("--seed", given.seed, given.seed, 0, std::numeric_limits<uint32_t>::max());
@@ -346,6 +352,9 @@ std::string_view integrator_name(Integrator integrator) {
 }
 std::string_view sampler_name(SamplerKind sampler) {
   return name_of(sampler, kSamplers);
+}
+std::string_view colour_name(ColourMode colour) {
+  return name_of(colour, kColourModes);
 }
 std::string_view tone_map_name(ToneMap tone_map) {
   return name_of(tone_map, kToneMaps);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "film/settings.h"
+#include "scene/colour_model.h"
 #include "scene/compile.h"
 #include "wavefront/plan.h"
 
@@ -48,6 +49,7 @@ struct Arguments {
   std::optional<Integrator> integrator;
   std::optional<uint32_t> max_depth;
   SamplerKind sampler = SamplerKind::kSobol;
+  ColourMode colour = ColourMode::kBands;
   uint32_t seed = 0;
   uint32_t width = 0, height = 0;            ///< 0: as the film says [pixels]
   std::optional<std::array<float, 4>> crop;  ///< fractions x0 x1 y0 y1
@@ -74,6 +76,7 @@ CommandLine parse_command_line(int argc, const char* const* argv);
 /// Names as on the command line.
 std::string_view integrator_name(Integrator integrator);
 std::string_view sampler_name(SamplerKind sampler);
+std::string_view colour_name(ColourMode colour);
 std::string_view tone_map_name(ToneMap tone_map);
 
 }  // namespace yat

@@ -22,6 +22,7 @@ struct RenderReport {
   FilmSettings film;
   Integrator integrator = Integrator::kPath;
   SamplerKind sampler = SamplerKind::kSobol;
+  ColourMode colour = ColourMode::kBands;
   TransportOptions transport;
   std::string isa;
   uint32_t lanes = 0, threads = 0;

@@ -67,6 +67,7 @@ void compile(const Arguments& arguments, const KernelTable& kernels, ThreadPool&
   options.tree = arguments.tree;
   options.width = arguments.width;
   options.height = arguments.height;
+  options.colour = arguments.colour;
   if (arguments.crop) {
     for (size_t i = 0; i < 4; ++i) options.crop[i] = (*arguments.crop)[i];
     options.crop_given = true;
@@ -150,6 +151,7 @@ RenderReport report_of(const Arguments& arguments, const Loaded& loaded, const T
   report.film = loaded.scene.film;
   report.integrator = loaded.integrator;
   report.sampler = loaded.plan.sampler;
+  report.colour = arguments.colour;
   report.transport = loaded.plan.transport;
   report.isa = loaded.plan.kernels->isa;
   report.lanes = loaded.plan.kernels->lanes;

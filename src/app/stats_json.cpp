@@ -72,6 +72,7 @@ std::string stats_json(const RenderReport& report) {
       {"integrator", integrator_name(report.integrator)},
       {"max_depth", report.transport.max_depth},
       {"sampler", sampler_name(report.sampler)},
+      {"colour", colour_name(report.colour)},
       {"tonemap", tone_map_name(report.film.tone_map)},
       {"exposure", report.film.exposure_stops},
       {"outputs", report.outputs}};

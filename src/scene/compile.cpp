@@ -19,15 +19,16 @@ constexpr uint64_t kManyCopies = 1'000'000;
 struct ShapeInfo {
   bool read = false;
   std::optional<CompiledShape> shape;
-  glm::dvec3 radiance{0.0};  ///< of its area light, by the area before instancing
+  glm::dvec3 radiance{0.0};  ///< bands, of its area light, by the area before instancing
 };
 
 class ShapePlacer {
  public:
-  ShapePlacer(const Description& description, Diagnostics& diagnostics)
+  ShapePlacer(const Description& description, const ColourModel& colour, Diagnostics& diagnostics)
       : description_(description),
+        colour_(colour),
         diagnostics_(diagnostics),
-        materials_(description, diagnostics),
+        materials_(description, colour, diagnostics),
         shapes_(description.shapes.size()),
         area_lights_(description.area_lights.size()) {}
 
@@ -93,13 +94,13 @@ class ShapePlacer {
     if (entry.area_light < area_lights_.size()) info.radiance = radiance(entry, *info.shape);
   }
 
-  /// What the shape emits; black if it is no light.
+  /// What the shape emits, in bands; black if it is no light.
   glm::dvec3 radiance(const ShapeEntry& entry, const CompiledShape& shape) {
     const glm::dvec3 black(0.);
     auto& light = area_lights_[entry.area_light];
     if (!light)
       light = std::make_optional(compile_area_light(description_.area_lights[entry.area_light],
-                                                    description_, diagnostics_));
+                                                    description_, colour_, diagnostics_));
     if (!*light) return black;
     if (shape.kind == CompiledShape::Kind::kPlane) {
       diagnostics_.warning(entry.plugin.loc,
@@ -125,6 +126,7 @@ class ShapePlacer {
   }
 
   const Description& description_;
+  const ColourModel& colour_;
   Diagnostics& diagnostics_;
   MaterialCompiler materials_;
   std::vector<ShapeInfo> shapes_;  // never resized: PlacedShape points into it
@@ -175,6 +177,7 @@ Scene compile_scene(const Description& description, const CompileOptions& option
                     Diagnostics& diagnostics) {
   Scene scene;
   scene.hash = description.hash;
+  scene.colour = colour_model(options.colour);
   scene.film = compile_film(description, options, diagnostics);
   set_filter(compile_filter(description.filter, diagnostics), scene);
   const IntegratorSettings integrator = compile_integrator(description.integrator, diagnostics);
@@ -185,7 +188,7 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   accept_silently(description.renderer);
   accept_silently(description.volume_integrator);
 
-  ShapePlacer shapes(description, diagnostics);
+  ShapePlacer shapes(description, scene.colour, diagnostics);
   shapes.place_all();
   scene.shapes_read = shapes.shapes_read();
 
@@ -215,7 +218,7 @@ Scene compile_scene(const Description& description, const CompileOptions& option
 
   std::vector<LightRow<Value>> lights = std::move(rows.lights());
   for (const LightEntry& light : description.lights)
-    compile_light(light, description, scene.center, lights, diagnostics);
+    compile_light(light, description, scene.colour, scene.center, lights, diagnostics);
   if (lights.empty())
     diagnostics.warning({}, "the scene has no light that can be used: the picture will be black");
   finish_lights(std::move(lights), double(scene.radius), scene);

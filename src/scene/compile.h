@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "film/settings.h"
 #include "kernels/table.h"
+#include "scene/colour_model.h"
 #include "scene/compiled.h"
 #include "scene/description.h"
 #include "scene/tree_build.h"
@@ -39,6 +40,7 @@ struct CompileOptions {
   float crop[4] = {0, 1, 0, 1};    ///< --crop, fractions x0 x1 y0 y1; used if crop_given
   bool crop_given = false;
   TreeChoice tree = TreeChoice::kFromScene;
+  ColourMode colour = ColourMode::kBands;
 };
 
 /// The compiled scene: owns all columns.
@@ -46,9 +48,10 @@ struct Scene {
   glm::dvec3 center{0.0};  ///< world position of the scene-space origin
   float radius = 1;        ///< around the origin: holds the camera and all but planes [m]
   FilmSettings film;
-  int32_t max_depth = 16;    ///< from SurfaceIntegrator
-  bool direct_only = false;  ///< SurfaceIntegrator "directlighting"
-  uint64_t hash = 0;         ///< of the scene text
+  ColourModel colour = colour_model(ColourMode::kBands);  ///< of all colours below
+  int32_t max_depth = 16;                                 ///< from SurfaceIntegrator
+  bool direct_only = false;                               ///< SurfaceIntegrator "directlighting"
+  uint64_t hash = 0;                                      ///< of the scene text
 
   RowTable<TriangleRow> triangles;
   RowTable<TriangleVertexRow> triangle_vertices;

@@ -16,26 +16,27 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// L times gain with negative and non-finite channels as 0. Y of L alone goes to `y`.
-glm::dvec3 light_color(Parameters& p, const Description& description, double& y) {
+/// A colour of a light: L, and L times gain, with negative and non-finite channels as 0.
+struct LightColor {
+  glm::dvec3 bands;  ///< of L times gain
+  double y;          ///< luminance of L, without gain
+};
+LightColor light_color(Parameters& p, const Description& description, const ColourModel& colour) {
   const glm::dvec3 given = color_parameter(p, "L", glm::dvec3(1.), description);
   const auto gain = double(p.number("gain", 1));
-  glm::dvec3 color(0.);
-  bool bad = false;
-  for (int i = 0; i < 3; ++i) {
-    const double value = given[i] * gain;
-    if (value >= 0 && std::isfinite(value))
-      color[i] = value;
-    else
-      bad = true;
-  }
-  if (bad)
+  const auto clean = [](glm::dvec3 color) {
+    for (int i = 0; i < 3; ++i)
+      if (!(color[i] >= 0 && std::isfinite(color[i]))) color[i] = 0;
+    return color;
+  };
+  const glm::dvec3 scaled = given * gain, color = clean(scaled);
+  if (color != scaled)
     p.diagnostics().warning(p.loc(p.given("L") ? "L" : "gain"),
                             fmt::format("the colour of {} has negative or infinite channels: 0 is "
                                         "used for them",
                                         p.what()));
-  y = luminance(given);
-  return color;
+  const glm::dvec3 own = to_bands(clean(given), colour.light);
+  return {to_bands(color, colour.light), luminance(to_rgb(own, colour.film))};
 }
 
 LightRow<Value> light_row(LightKind kind, const glm::dvec3& radiance) {
@@ -63,9 +64,8 @@ bool is_finite(const glm::dvec3& v) {
 
 std::optional<LightRow<Value>> point_light(Parameters& p, const LightEntry& entry,
                                            const Description& description,
-                                           const glm::dvec3& center) {
-  double y = 1;
-  glm::dvec3 intensity = light_color(p, description, y);
+                                           const ColourModel& colour, const glm::dvec3& center) {
+  auto [intensity, y] = light_color(p, description, colour);
   const double lumen = double(p.number("power", 0)) * double(p.number("efficacy", 0));
   const glm::dvec3 from = p.triple("from", ParameterType::kPoint, glm::dvec3(0.));
   p.unsupported({"mapname", "iesname"}, "the light shines evenly in all directions");
@@ -92,9 +92,9 @@ std::optional<LightRow<Value>> point_light(Parameters& p, const LightEntry& entr
 }
 
 std::optional<LightRow<Value>> distant_light(Parameters& p, const LightEntry& entry,
-                                             const Description& description) {
-  double y = 1;
-  const glm::dvec3 irradiance = light_color(p, description, y);
+                                             const Description& description,
+                                             const ColourModel& colour) {
+  const glm::dvec3 irradiance = light_color(p, description, colour).bands;
   const glm::dvec3 from = p.triple("from", ParameterType::kPoint, glm::dvec3(0.));
   const glm::dvec3 to = p.triple("to", ParameterType::kPoint, glm::dvec3(0., 0., 1.));
   auto theta = double(p.number("theta", 0));
@@ -132,7 +132,7 @@ std::optional<LightRow<Value>> distant_light(Parameters& p, const LightEntry& en
 
 std::optional<AreaLight> compile_area_light(const AreaLightEntry& entry,
                                             const Description& description,
-                                            Diagnostics& diagnostics) {
+                                            const ColourModel& colour, Diagnostics& diagnostics) {
   const Plugin& plugin = entry.plugin;
   if (plugin.type != "area") {
     diagnostics.error(
@@ -144,7 +144,9 @@ std::optional<AreaLight> compile_area_light(const AreaLightEntry& entry,
   Parameters p(plugin, "area light", diagnostics);
   AreaLight light;
   light.loc = plugin.loc;
-  light.color = light_color(p, description, light.luminance);
+  const LightColor color = light_color(p, description, colour);
+  light.color = color.bands;
+  light.luminance = color.y;
   light.power = double(p.number("power", 100));
   light.efficacy = double(p.number("efficacy", 17));
   p.unsupported({"mapname", "iesname"}, "the light shines evenly (Lambertian)");
@@ -165,15 +167,15 @@ glm::dvec3 area_light_radiance(const AreaLight& light, double area, Diagnostics&
 }
 
 void compile_light(const LightEntry& entry, const Description& description,
-                   const glm::dvec3& center, std::vector<LightRow<Value>>& rows,
-                   Diagnostics& diagnostics) {
+                   const ColourModel& colour, const glm::dvec3& center,
+                   std::vector<LightRow<Value>>& rows, Diagnostics& diagnostics) {
   const Plugin& plugin = entry.plugin;
   Parameters p(plugin, "light \"" + plugin.type + "\"", diagnostics);
   std::optional<LightRow<Value>> row;
   if (plugin.type == "point" || plugin.type == "goniometric") {
-    row = point_light(p, entry, description, center);
+    row = point_light(p, entry, description, colour, center);
   } else if (plugin.type == "distant") {
-    row = distant_light(p, entry, description);
+    row = distant_light(p, entry, description, colour);
   } else {
     static const std::vector<std::string_view> kKnown = {
         "point",          "goniometric", "distant", "spot", "projection", "infinite",
@@ -193,9 +195,9 @@ void compile_light(const LightEntry& entry, const Description& description,
     rows.push_back(*row);
 }
 
-double light_power(const LightRow<Value>& light, double scene_radius) {
-  const double y =
-      luminance({double(light.radiance_r), double(light.radiance_g), double(light.radiance_b)});
+double light_power(const LightRow<Value>& light, const ColourModel& colour, double scene_radius) {
+  const glm::dvec3 bands(light.radiance_r, light.radiance_g, light.radiance_b);
+  const double y = luminance(to_rgb(bands, colour.film));
   const auto extra = double(light.extra);
   switch (LightKind(light.kind)) {
     case LightKind::kTriangle:
@@ -214,7 +216,8 @@ double light_power(const LightRow<Value>& light, double scene_radius) {
 
 void finish_lights(std::vector<LightRow<Value>> rows, double scene_radius, Scene& scene) {
   std::vector<double> power;
-  for (const LightRow<Value>& row : rows) power.push_back(light_power(row, scene_radius));
+  for (const LightRow<Value>& row : rows)
+    power.push_back(light_power(row, scene.colour, scene_radius));
   const AliasTable table = make_alias_table(power);
   scene.lights.resize(uint32_t(rows.size()));
   scene.light_choice.resize(uint32_t(rows.size()));

@@ -86,20 +86,20 @@ MaterialRef MaterialCompiler::add(MaterialKind kind, const Record<Value>& record
 }
 
 MaterialRef MaterialCompiler::add_matte(const glm::dvec3& kd, double sigma_degrees) {
-  const glm::vec3 c(kd);
+  const glm::vec3 c(to_bands(kd, colour_.reflectance));
   if (sigma_degrees == 0) return add<MatteParameters>(MaterialKind::kMatte, {c.x, c.y, c.z});
   return add<OrenNayarParameters>(MaterialKind::kOrenNayar,
                                   {c.x, c.y, c.z, float(sigma_degrees * std::numbers::pi / 180)});
 }
 
 MaterialRef MaterialCompiler::add_mirror(const glm::dvec3& kr) {
-  return add<MirrorParameters>(MaterialKind::kMirror, {float(kr.x), float(kr.y), float(kr.z)});
+  const glm::vec3 c(to_bands(kr, colour_.reflectance));
+  return add<MirrorParameters>(MaterialKind::kMirror, {c.x, c.y, c.z});
 }
 
 MaterialRef MaterialCompiler::add_glass(const glm::dvec3& kr, const glm::dvec3& kt, double index) {
-  return add<GlassParameters>(
-      MaterialKind::kGlass,
-      {float(kr.x), float(kr.y), float(kr.z), float(kt.x), float(kt.y), float(kt.z), float(index)});
+  const glm::vec3 r(to_bands(kr, colour_.reflectance)), t(to_bands(kt, colour_.reflectance));
+  return add<GlassParameters>(MaterialKind::kGlass, {r.x, r.y, r.z, t.x, t.y, t.z, float(index)});
 }
 
 glm::dvec3 MaterialCompiler::reflectance(Parameters& p, std::string_view name, double fallback) {

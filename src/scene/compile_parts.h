@@ -69,8 +69,10 @@ struct MaterialRef {
 /// Turns material entries into parameter rows, each once.
 class MaterialCompiler {
  public:
-  MaterialCompiler(const Description& description, Diagnostics& diagnostics)
+  MaterialCompiler(const Description& description, const ColourModel& colour,
+                   Diagnostics& diagnostics)
       : description_(description),
+        colour_(colour),
         diagnostics_(diagnostics),
         done_(description.materials.size() + 1) {}
 
@@ -90,6 +92,7 @@ class MaterialCompiler {
   glm::dvec3 reflectance(Parameters& parameters, std::string_view name, double fallback);
 
   const Description& description_;
+  const ColourModel& colour_;
   Diagnostics& diagnostics_;
   std::vector<std::optional<MaterialRef>> done_;
   std::array<std::vector<uint32_t>, kMaterialKinds> words_;
@@ -158,7 +161,7 @@ struct PlacedShape {
   Placement placement;
   bool reverse_orientation = false;
   MaterialRef material;
-  glm::dvec3 radiance{0.0};  ///< > 0 in some channel: emissive
+  glm::dvec3 radiance{0.0};  ///< bands; > 0 in one of them: emissive
   bool emissive() const { return radiance.x > 0 || radiance.y > 0 || radiance.z > 0; }
 };
 
@@ -202,7 +205,7 @@ class GeometryRows {
 
 /// What an AreaLightSource statement asks for.
 struct AreaLight {
-  glm::dvec3 color{1.0};  ///< L * gain, negative channels clamped to 0
+  glm::dvec3 color{1.0};  ///< L * gain in bands, negative channels of L clamped to 0
   double luminance = 1;   ///< Y(L), gain left out
   double power = 100, efficacy = 17;
   SourceLoc loc;
@@ -210,8 +213,8 @@ struct AreaLight {
 /// Empty if the statement cannot be used (reported).
 std::optional<AreaLight> compile_area_light(const AreaLightEntry& entry,
                                             const Description& description,
-                                            Diagnostics& diagnostics);
-/// Radiance by the power rule of lxs 6.2 for a shape of this area [m2].
+                                            const ColourModel& colour, Diagnostics& diagnostics);
+/// Radiance in bands by the power rule of lxs 6.2 for a shape of this area [m2].
 glm::dvec3 area_light_radiance(const AreaLight& light, double area, Diagnostics& diagnostics);
 
 /// Box around everything finite.
@@ -228,13 +231,14 @@ struct Bounds {
 
 /// Appends point and distant lights to `rows`.
 void compile_light(const LightEntry& entry, const Description& description,
-                   const glm::dvec3& center, std::vector<LightRow<Value>>& rows,
-                   Diagnostics& diagnostics);
+                   const ColourModel& colour, const glm::dvec3& center,
+                   std::vector<LightRow<Value>>& rows, Diagnostics& diagnostics);
 
 /// Emitted power [W, luminance-weighted] of a light row: what it is chosen by.
-double light_power(const LightRow<Value>& light, double scene_radius);
+double light_power(const LightRow<Value>& light, const ColourModel& colour, double scene_radius);
 
-/// Fills the scene's light tables: probabilities by power, alias table.
+/// Fills the scene's light tables (its colour model must be set): probabilities by power, alias
+/// table.
 void finish_lights(std::vector<LightRow<Value>> rows, double scene_radius, Scene& scene);
 
 }  // namespace yat

@@ -111,7 +111,7 @@ template <template <class> class Of>
 struct LightRow {
   Of<float> a_x, a_y, a_z, b_x, b_y, b_z, c_x, c_y, c_z;
   Of<float> extra;
-  Of<float> radiance_r, radiance_g, radiance_b;  ///< linear Rec.709
+  Of<float> radiance_r, radiance_g, radiance_b;  ///< bands
   Of<float> probability;                         ///< with which sample_lights chooses this row
   Of<uint32_t> kind;                             ///< LightKind
   YAT_FIELDS(a_x, a_y, a_z, b_x, b_y, b_z, c_x, c_y, c_z, extra, radiance_r, radiance_g, radiance_b,

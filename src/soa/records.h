@@ -1,6 +1,7 @@
 #pragma once
 // The records that stages exchange. Positions and directions are in scene space: world axes, origin
-// moved to the scene's centre (Scene::center), unit as in the scene file ("m" below).
+// moved to the scene's centre (Scene::center), unit as in the scene file ("m" below). Colours are
+// in the three transport bands of the scene (scene/colour_model.h): _r, _g, _b.
 //
 //   generate ─> Ray, PathState ─> intersect ─> Hit ─> [per bin: surface ─> Surface,
 //   sample_lights ─> LightSample, shade ─> Ray, PathState, ShadowRay] ─> intersect_shadow
@@ -112,7 +113,7 @@ static_assert(all_fields_listed<ShadowRay>);
 /// The radiance of one sample while its path is under way. Indexed by slot.
 template <template <class> class Of>
 struct SampleSum {
-  Of<float> r, g, b;   ///< linear Rec.709 radiance [W/m2/sr]
+  Of<float> r, g, b;   ///< radiance [W/m2/sr], bands
   Of<uint32_t> pixel;  ///< film row (tile-local, chosen by the schedule)
   YAT_FIELDS(r, g, b, pixel)
 };

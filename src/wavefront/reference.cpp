@@ -167,7 +167,7 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
     if (!material_traits(material).delta)
       vertex = std::max(vertex, options.least_depth_after_scatter);
   }
-  return radiance;
+  return to_rgb(radiance, scene.colour.film);
 }
 
 }  // namespace yat

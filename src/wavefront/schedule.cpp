@@ -241,7 +241,9 @@ void Worker::accumulate() {
 void Worker::flush(uint32_t slot) {
   const SampleSum<Column>& sums = batch_.sums.columns();
   const uint32_t pixel = sums.pixel[slot];
-  if (!film_.data()[pixel].add(sums.r[slot], sums.g[slot], sums.b[slot])) {
+  const ColourTriple<float> rgb =
+      rgb_of<float>({sums.r[slot], sums.g[slot], sums.b[slot]}, scene_.colour.film);
+  if (!film_.data()[pixel].add(rgb.r, rgb.g, rgb.b)) {
     const FilmSettings& film = scene_.film;
     const uint32_t x = film.crop_x0 + pixel % film_.width();
     const uint32_t y = film.crop_y0 + pixel / film_.width();
