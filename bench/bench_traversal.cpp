@@ -118,8 +118,9 @@ void describe(CLI::App& app, Options& options) {
   list(app.add_option("--tree", options.traced.trees, "Kinds of tree: auto, kd"))
       ->check(CLI::IsMember({"auto", "kd"}));
   list(app.add_option("--kernels", options.traced.kernels,
-                      "stream; scalar: plain code over the same tree"))
-      ->check(CLI::IsMember({"stream", "scalar"}));
+                      "render: camera rays in tiles, others in streams; stream: all in streams; "
+                      "scalar: plain code over the same tree"))
+      ->check(CLI::IsMember(trace_kernel_names()));
   list(app.add_option("--streams", options.traced.streams,
                       "Rows of a stream; 0: 8192 camera and shadow rays, 32768 to 65536 others"))
       ->check(CLI::Range(0, 1 << 22));
@@ -152,7 +153,7 @@ int run(int argc, char** argv) {
   Options options;
   options.traced.trees = {"auto"};
   options.traced.streams = {0};
-  options.traced.kernels = {"stream"};
+  options.traced.kernels = {"render"};
   CLI::App app("Traversal alone: recorded rays through the kernels, beside Embree's variants.");
   describe(app, options);
   try {

@@ -32,10 +32,9 @@ RaySet camera_rays(const Viewpoint& view, uint32_t width, uint32_t height, Unifo
   for (uint32_t ty = 0; ty < height; ty += 8)
     for (uint32_t tx = 0; tx < width; tx += 8)
       for (uint32_t i = 0; i < 64; ++i) {
-        // As the renderer lists the pixels of a block: 4 x 4 by 4 x 4.
-        const uint32_t px = i % 4 + (i / 16 % 2) * 4, py = i / 4 % 4 + i / 32 * 4;
-        const double x = (tx + px + uniform() - width * 0.5) / height;
-        const double y = (ty + py + uniform() - height * 0.5) / height;
+        const uint32_t px = tx + i % 4 + i / 16 % 2 * 4, py = ty + i / 4 % 4 + i / 32 * 4;
+        const double x = (px + uniform() - width * 0.5) / height;
+        const double y = (py + uniform() - height * 0.5) / height;
         set.rays.push_back(
             ray_of(view.eye, glm::normalize(forward + right * (x * 0.7) - up * (y * 0.7))));
       }

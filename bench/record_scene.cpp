@@ -12,6 +12,7 @@
 #include "scene/compile.h"
 #include "scene/parse.h"
 #include "wavefront/plan.h"
+#include "wavefront/work.h"
 
 namespace yat::bench {
 namespace {
@@ -66,16 +67,16 @@ class Recorder {
 
   /// Camera rays of `samples` samples per pixel, n in all.
   void generate(uint32_t samples) {
-    const FilmSettings& film = scene_.film;
-    const uint32_t right = film.crop_x0 + film.crop_width(),
-                   bottom = film.crop_y0 + film.crop_height();
+    // One worker's tiles, in the order in which a render lists their paths.
     Table<CameraSample> camera(rays_.capacity());
-    for (uint32_t ty = film.crop_y0; ty < bottom; ty += 8)
-      for (uint32_t tx = film.crop_x0; tx < right; tx += 8)
-        for (uint32_t sample = 0; sample < samples; ++sample)
-          for (uint32_t y = ty; y < std::min(ty + 8, bottom); ++y)
-            for (uint32_t x = tx; x < std::min(tx + 8, right); ++x, ++count_)
-              camera.set(count_, {y << 16 | x, sample, count_});
+    WorkList work(scene_.film, 0, samples, 64, 1);
+    WorkCursor cursor;
+    while (const WorkUnit* unit = work.claim()) {
+      cursor.start(*unit);
+      count_ += cursor.take(rays_.capacity() - count_, camera.columns().pixel + count_,
+                            camera.columns().sample + count_);
+    }
+    for (uint32_t i = 0; i < count_; ++i) camera.columns().slot[i] = i;
     AlignedArray<float> film_u(count_), film_v(count_), lens_u(count_), lens_v(count_);
     const auto draw_camera = [&](Dimension dimension, float* u, float* v) {
       kernels_.draw[uint32_t(plan_.sampler)](options_.seed, dimension, camera.view().pixel,

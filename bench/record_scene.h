@@ -28,8 +28,8 @@ struct Recording {
   std::vector<RaySet> sets;
 };
 
-/// Compiles a scene and follows the paths of its camera, in wavefront order: 8x8 pixels after
-/// another, then by the bins of a render. Sets:
+/// Compiles a scene and follows the paths of its camera, in wavefront order: as a
+/// render lists them (wavefront/work.h), then by bins. Sets:
 ///   camera            the camera rays, those that miss everything included
 ///   mirror            reflected by the geometric normal at the first vertex
 ///   shadow k          from vertex k to a light, if the scene has any that can add something

@@ -114,7 +114,7 @@ step instruction-sets 17 "$bin/bench_traversal" "${traced[@]}" --isa sse42,avx2 
   --repetitions 3 --seconds "$(per_set 17)" --json "$output/instruction-sets.json"
 step kd-tree 7 "$bin/bench_traversal" "${traced[@]}" --tree auto,kd --no-embree --resolution 256 \
   --repetitions 5 --seconds "$(per_set 7)" --json "$output/kd-tree.json"
-step scalar 7 "$bin/bench_traversal" "${traced[@]}" --isa sse42 --kernels stream,scalar --no-embree \
+step scalar 7 "$bin/bench_traversal" "${traced[@]}" --isa sse42 --kernels render,scalar --no-embree \
   --resolution 256 --repetitions 3 --seconds "$(per_set 7)" --json "$output/scalar.json"
 step build 15 "$bin/bench_build" --repetitions 5 --seconds $((minutes * 60 * 15 / 100 / 32)) \
   --json "$output/build.json"

@@ -12,9 +12,16 @@
 namespace yat::bench {
 
 std::vector<TraceKernel> trace_kernels(const KernelTable& table) {
-  return {{"stream", table.traversal_scratch_bytes, table.intersect_closest, table.intersect_tiles,
-           table.intersect_shadow[0]},
+  const auto scratch = table.traversal_scratch_bytes;
+  const auto closest = table.intersect_closest;
+  const auto shadow = table.intersect_shadow[0];
+  return {{"render", scratch, table.intersect_tiles, closest, shadow},
+          {"stream", scratch, closest, closest, shadow},
           {"scalar", scalar_scratch_bytes, scalar_closest, scalar_closest, scalar_shadow}};
+}
+
+std::vector<std::string> trace_kernel_names() {
+  return {"render", "stream", "scalar"};
 }
 
 std::string Config::name() const {
@@ -23,14 +30,14 @@ std::string Config::name() const {
 }
 
 uint32_t stream_rows(const RaySet& set) {
-  if (set.shadow || set.name == "camera") return 8192;
+  if (set.shadow || set.camera()) return 8192;
   return set.name == "mirror" || set.name == "diffuse 1" ? 32768 : 65536;
 }
 
 TracedSet::TracedSet(const Config& config, const RaySet& set)
     : config_(config),
       shadow_(set.shadow),
-      closest_(set.name == "camera" ? config.kernel.camera : config.kernel.closest),
+      camera_(set.camera()),
       n_(uint32_t(set.rays.size())),
       stream_(config.stream ? config.stream : stream_rows(set)) {
   scratch_.emplace_back(config.kernel.scratch_bytes(config.tree->view, stream_));
@@ -54,8 +61,9 @@ LaneCount TracedSet::trace_stream(uint32_t first, const Scratch& scratch) {
   if (shadow_)
     return config_.kernel.shadow(tree, columns_from(shadow_rays_.view(), first),
                                  occluded_.data() + first, rows, scratch);
-  return closest_(tree, columns_from(rays_.view(), first), columns_from(hits_.columns(), first),
-                  rows, scratch);
+  const auto closest = camera_ ? config_.kernel.camera : config_.kernel.closest;
+  return closest(tree, columns_from(rays_.view(), first), columns_from(hits_.columns(), first),
+                 rows, scratch);
 }
 
 TraceTime TracedSet::trace() {

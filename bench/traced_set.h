@@ -13,18 +13,22 @@ namespace yat::bench {
 
 /// A way to trace rays; the functions are as in KernelTable.
 struct TraceKernel {
+  using Closest = LaneCount (*)(const TreeView&, const Ray<ConstColumn>&, const Hit<Column>&,
+                                uint32_t n, const Scratch&) noexcept;
+  using Shadow = LaneCount (*)(const TreeView&, const ShadowRay<ConstColumn>&, uint32_t* occluded,
+                               uint32_t n, const Scratch&) noexcept;
   std::string name;
   size_t (*scratch_bytes)(const TreeView&, uint32_t max_rays) noexcept;
-  LaneCount (*closest)(const TreeView&, const Ray<ConstColumn>&, const Hit<Column>&, uint32_t n,
-                       const Scratch&) noexcept;
-  decltype(closest) camera;  ///< for camera rays, of which 64 in a row lie close together
-  LaneCount (*shadow)(const TreeView&, const ShadowRay<ConstColumn>&, uint32_t* occluded,
-                      uint32_t n, const Scratch&) noexcept;
+  Closest camera;  ///< for the camera's rays, of which 64 in a row lie close together
+  Closest closest;
+  Shadow shadow;
 };
 
-/// "stream", the kernels of a table (beams for camera rays, streams for others), and "scalar",
-/// plain code over the same tree.
+/// "render": as a render traces, camera rays in tiles and the others in streams; "stream": all in
+/// streams; "scalar": plain code over the same tree.
 std::vector<TraceKernel> trace_kernels(const KernelTable& table);
+/// Their names, in that order.
+std::vector<std::string> trace_kernel_names();
 
 /// What is measured: a kernel of an instruction set over a kind of tree, in streams of so many
 /// rows.
@@ -64,8 +68,7 @@ class TracedSet {
   LaneCount trace_stream(uint32_t first, const Scratch& scratch);
 
   Config config_;
-  bool shadow_;
-  decltype(TraceKernel::closest) closest_;
+  bool shadow_, camera_;
   uint32_t n_, stream_;
   Table<Ray> rays_;
   Table<ShadowRay> shadow_rays_;

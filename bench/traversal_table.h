@@ -15,7 +15,7 @@ struct TableOptions {
   std::vector<std::string> isas;     ///< empty: the one that YAT_ISA or the machine chooses
   std::vector<std::string> trees;    ///< "auto", "kd"
   std::vector<uint32_t> streams;     ///< rows; 0: by kind of ray
-  std::vector<std::string> kernels;  ///< "stream", "scalar"
+  std::vector<std::string> kernels;  ///< of trace_kernel_names()
   std::vector<uint32_t> threads;     ///< beside 1
   uint32_t repetitions = 7;
   double seconds = 60;  ///< after three rounds, start no other once a set has taken this long

@@ -110,7 +110,7 @@ TEST_F(Benches, TraversalTableComparesAnswers) {
       bench("bench_traversal",
             {"--json", "traversal.json", "--scenes", "cornell", "--open", "mesh.ply",
              "--resolution", "40", "--tree", "auto,kd", "--streams", "0,32", "--threads", "2",
-             "--repetitions", "2", "--kernels", "stream,scalar", "mesh.ply"});
+             "--repetitions", "2", "--kernels", "render,scalar", "mesh.ply"});
   ASSERT_EQ(result.code, 0) << result.out << result.err;
   const Json report = json("traversal.json");
   EXPECT_EQ(report["program"], "bench_traversal");
@@ -174,7 +174,7 @@ TEST_F(Benches, TraversalSaysWhatIsWrong) {
             "hall[:triangles]\n");
   ProgramResult result = bench("bench_traversal", {"--table", "--kernels", "best"});
   EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("best not in {stream,scalar}"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("best not in {render,stream,scalar}"), std::string::npos) << result.err;
   result = bench("bench_traversal", {"--table", "none.ply"});
   EXPECT_EQ(result.code, 1);
   EXPECT_NE(result.err.find("none.ply"), std::string::npos) << result.err;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 #include "judge.h"
 #include "kernels/dispatch.h"
@@ -20,6 +21,12 @@ std::vector<Hit<Value>> answers(const Config& config, const RaySet& set) {
   return hits;
 }
 
+TraceKernel kernel_of(const KernelTable& table, const std::string& name) {
+  for (const TraceKernel& kernel : trace_kernels(table))
+    if (kernel.name == name) return kernel;
+  throw std::logic_error("no kernel " + name);
+}
+
 void expect_agreement(const BenchScene& scene, bool strict_kd_tree) {
   ThreadPool pool(1);
   for (const IsaEntry& entry : built_isas()) {
@@ -27,15 +34,16 @@ void expect_agreement(const BenchScene& scene, bool strict_kd_tree) {
     const KernelTable& table = *entry.table();
     const Tree tree =
         build_tree(scene.rows.view(), {}, {std::max(4u, table.lanes), strict_kd_tree}, pool);
-    const std::vector<TraceKernel> kernels = trace_kernels(table);
-    ASSERT_EQ(kernels[1].name, "scalar");
     for (const RaySet& set : record_rays(scene, table, tree.view, 64, 64)) {
-      const auto kernel = answers({&table, kernels[0], "auto", &tree, 1024}, set);
-      const auto scalar = answers({&table, kernels[1], "auto", &tree, 1024}, set);
-      const Differences d = compare(scene, set, kernel, scalar);
-      EXPECT_EQ(d.hit_miss, 0u) << table.isa << ", " << set.name;
-      EXPECT_EQ(d.yat_wrong + d.other_wrong + d.unjudged, 0u) << table.isa << ", " << set.name;
-      EXPECT_EQ(d.yat_t_off + d.other_t_off, 0u) << table.isa << ", " << set.name;
+      const auto scalar = answers({&table, kernel_of(table, "scalar"), "auto", &tree, 1024}, set);
+      for (const char* name : {"render", "stream"}) {
+        const auto kernel = answers({&table, kernel_of(table, name), "auto", &tree, 1024}, set);
+        const Differences d = compare(scene, set, kernel, scalar);
+        const std::string what = std::string(table.isa) + ", " + name + ", " + set.name;
+        EXPECT_EQ(d.hit_miss, 0u) << what;
+        EXPECT_EQ(d.yat_wrong + d.other_wrong + d.unjudged, 0u) << what;
+        EXPECT_EQ(d.yat_t_off + d.other_t_off, 0u) << what;
+      }
     }
   }
 }
@@ -51,7 +59,7 @@ TEST(ScalarTrace, StreamsAndThreadsChangeNothing) {
   ThreadPool pool(1);
   const KernelTable& table = select_kernels();
   const Tree tree = build_tree(scene.rows.view(), {}, {std::max(4u, table.lanes), false}, pool);
-  const TraceKernel kernel = trace_kernels(table)[0];
+  const TraceKernel kernel = kernel_of(table, "render");
   for (const RaySet& set : record_rays(scene, table, tree.view, 64, 64)) {
     TracedSet whole({&table, kernel, "auto", &tree, 8192}, set);
     TracedSet cut({&table, kernel, "auto", &tree, 48}, set);
@@ -77,7 +85,7 @@ TEST(ScalarTrace, BadRaysMiss) {
                     {0, 0, 0, 0, nan, 1, kRayFar},
                     {0, 0, 0, 0, 0, 1, nan},
                     {0, 0, 0, 0, 0, 1, kRayFar}}};
-  const auto hits = answers({&table, trace_kernels(table)[1], "auto", &tree, 16}, set);
+  const auto hits = answers({&table, kernel_of(table, "scalar"), "auto", &tree, 16}, set);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(hits[size_t(i)].prim, kNone) << i;
   EXPECT_NE(hits[4].prim, kNone);
 }
