@@ -10,18 +10,6 @@
 
 namespace yat::tree {
 
-BinaryNode* NodeArena::pair() {
-  constexpr size_t kChunk = 1024;
-  Cursor& cursor = cursors_[worker_index()];
-  if (cursor.chunks.empty() || cursor.used == kChunk) {
-    cursor.chunks.push_back(std::make_unique<BinaryNode[]>(kChunk));
-    cursor.used = 0;
-  }
-  BinaryNode* const pair = cursor.chunks.back().get() + cursor.used;
-  cursor.used += 2;
-  return pair;
-}
-
 namespace {
 
 /// Overlap of two children, as a share of the root, above which a plane is tried.
@@ -101,7 +89,7 @@ struct Builder {
   void descend(const Set& left, const Set& right, int axis, uint32_t depth,
                BinaryNode& node) const {
     node.axis = axis;
-    node.children = tree.arena.pair();
+    node.children = tree.arena.take(2);
     const auto lower = [&] { build(left, depth + 1, node.children[0]); };
     const auto upper = [&] { build(right, depth + 1, node.children[1]); };
     if (left.count + right.count > kParallel) {

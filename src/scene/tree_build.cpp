@@ -22,6 +22,8 @@ std::unique_ptr<BinaryTree> best_tree(const Rows<TriangleRow>& triangles,
     auto out = std::make_unique<BinaryTree>(workers);
     out->prices.block_width = options.block_width;
     build_binary(triangles, shape, *out);
+    // A strict kd-tree keeps its order: nothing but planes.
+    if (shape != TreeShape::kKd && out->root.count) mend_top(*out);
     return out;
   };
   std::optional<TreeShape> wanted = options.shape;
@@ -55,7 +57,7 @@ Tree build_tree(const Rows<TriangleRow>& triangles, std::span<const uint8_t> occ
     // Leaves have their rows: the references can go before the tree comes.
     best->storage->drop_references();
     for (const auto& storage : best->more) storage->drop_references();
-    collapse(best->root, triangles, occludes, best->prices, out);
+    collapse(*best, triangles, occludes, out);
   });
   out.statistics.build_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -124,8 +124,10 @@ struct Collapse {
 
 }  // namespace
 
-void collapse(BinaryNode& root, const Rows<TriangleRow>& triangles,
-              std::span<const uint8_t> occludes, const Prices& prices, Tree& out) {
+void collapse(BinaryTree& tree, const Rows<TriangleRow>& triangles,
+              std::span<const uint8_t> occludes, Tree& out) {
+  BinaryNode& root = tree.root;
+  const Prices& prices = tree.prices;
   double extent = 0;
   for (int a = 0; a < 3; ++a) {
     out.view.min[a] = root.box.low[a];
@@ -140,7 +142,7 @@ void collapse(BinaryNode& root, const Rows<TriangleRow>& triangles,
   // taken.
   static_assert(kFarExtents + 1 <= 8);
   const Collapse work{triangles, occludes, prices, extent * 0x1p-17, out};
-  out.statistics.sah_cost = plan_wide_tree(root, prices);
+  out.statistics.sah_cost = plan_wide_tree(tree);
   work.count(root);
   TreeStatistics& s = out.statistics;
   s.nodes = root.wide_nodes;

@@ -218,7 +218,7 @@ struct Small {
       std::copy_n(upper, u, sorted + l);
     }
     node.axis = best_axis;
-    node.children = arena.pair();
+    node.children = arena.take(2);
     node.children[0].box = below;
     node.children[1].box = above;
     build(first, best_left, depth + 1, node.children[0]);

@@ -5,6 +5,7 @@
 //             ─> binary tree: splits of objects, of space, or both      tree_build.cpp
 //                  objects: binned; exact for small sets                tree_objects.cpp
 //                  planes: binned, swept exactly, references clipped    tree_planes.cpp
+//             ─> its largest nodes put where they fit best              tree_reinsert.cpp
 //             ─> which binary nodes become wide                         tree_plan.cpp
 //             ─> 8-wide nodes and blocks                                tree_collapse.cpp
 //
@@ -59,6 +60,7 @@ struct Set {
 struct BinaryNode {
   Box box;
   BinaryNode* children = nullptr;       ///< two, side by side; the first is the lower side
+  BinaryNode* parent = nullptr;         ///< set by mend_top, for itself
   uint32_t* rows = nullptr;             ///< of a leaf: ascending, no duplicates
   size_t count = 0;                     ///< references at and below this node
   int32_t axis = 0;                     ///< of the split
@@ -67,19 +69,35 @@ struct BinaryNode {
   bool leaf() const { return !children; }
 };
 
-/// Pairs of nodes, handed out in pieces to each worker.
-class NodeArena {
+/// Memory for small arrays of T, handed out by each worker from chunks of its own, and kept.
+template <class T>
+class Arena {
  public:
-  explicit NodeArena(uint32_t workers) : cursors_(workers) {}
-  BinaryNode* pair();
+  explicit Arena(uint32_t workers) : cursors_(workers) {}
+  /// `count` elements, side by side. Inside ThreadPool::run.
+  T* take(size_t count) {
+    Cursor& cursor = cursors_[worker_index()];
+    if (cursor.left < count) {
+      cursor.left = std::max(count, kChunk);
+      cursor.chunks.push_back(std::make_unique<T[]>(cursor.left));
+      cursor.next = cursor.chunks.back().get();
+    }
+    T* const out = cursor.next;
+    cursor.next += count;
+    cursor.left -= count;
+    return out;
+  }
 
  private:
+  static constexpr size_t kChunk = 1024;
   struct alignas(64) Cursor {
-    std::vector<std::unique_ptr<BinaryNode[]>> chunks;
-    size_t used = 0;
+    std::vector<std::unique_ptr<T[]>> chunks;
+    T* next = nullptr;
+    size_t left = 0;
   };
   std::vector<Cursor> cursors_;
 };
+using NodeArena = Arena<BinaryNode>;
 
 /// What a random ray pays, in units of one visit of an 8-wide node by a ray alone.
 struct Prices {
@@ -167,11 +185,15 @@ struct BinaryTree {
   std::unique_ptr<Storage> storage;            ///< of the root's set
   std::vector<std::unique_ptr<Storage>> more;  ///< of sets that outgrew theirs
   std::mutex mutex;                            ///< of `more`
-  explicit BinaryTree(uint32_t workers) : arena(workers) {}
+  Arena<uint32_t> merged_rows;                 ///< of leaves that the plan makes of subtrees
+  explicit BinaryTree(uint32_t workers) : arena(workers), merged_rows(workers) {}
 };
 
 /// Builds the binary tree of the triangles. prices.block_width is given. Inside ThreadPool::run.
 void build_binary(const Rows<TriangleRow>& triangles, TreeShape shape, BinaryTree& tree);
+
+/// Puts the largest nodes where they enlarge the tree least. Inside ThreadPool::run.
+void mend_top(BinaryTree& tree);
 
 /// What a random ray through the root's box pays in the tree as it stands, in lists of its own,
 /// and how much boxes overlap their siblings, in areas of the root's box. Both are the same for
@@ -212,8 +234,8 @@ Box clipped_box(const Corners& corners, const Box& box);
 
 /// The 8-wide tree of a binary tree, which it plans first: fills the arrays, the view and the
 /// statistics of their contents. Inside ThreadPool::run.
-void collapse(BinaryNode& root, const Rows<TriangleRow>& triangles,
-              std::span<const uint8_t> occludes, const Prices& prices, Tree& tree);
+void collapse(BinaryTree& tree, const Rows<TriangleRow>& triangles,
+              std::span<const uint8_t> occludes, Tree& out);
 
 /// x as float, rounded down or up, finite.
 float round_down(double x);

@@ -101,24 +101,21 @@ void gather(const BinaryNode& node, std::vector<uint32_t>& rows) {
   }
 }
 
-void merge_leaves(BinaryNode& node) {
+void merge_leaves(BinaryNode& node, Arena<uint32_t>& arena) {
   if (node.leaf()) return;
   if (node.plan & kLeafBit) {
     std::vector<uint32_t> rows;
     gather(node, rows);
     std::sort(rows.begin(), rows.end());
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-    // The first leaf below begins where the node's set began, which had room for them all.
-    BinaryNode* first = &node;
-    while (!first->leaf()) first = first->children;
-    std::copy(rows.begin(), rows.end(), first->rows);
-    node.rows = first->rows;
+    node.rows = arena.take(rows.size());
+    std::copy(rows.begin(), rows.end(), node.rows);
     node.count = rows.size();
     node.children = nullptr;
     return;
   }
-  const auto lower = [&] { merge_leaves(node.children[0]); };
-  const auto upper = [&] { merge_leaves(node.children[1]); };
+  const auto lower = [&] { merge_leaves(node.children[0], arena); };
+  const auto upper = [&] { merge_leaves(node.children[1], arena); };
   if (node.count > kParallel) {
     parallel_invoke(lower, upper);
   } else {
@@ -150,9 +147,9 @@ uint32_t add_forest(BinaryNode& node, uint32_t i, Children& out) {
 
 }  // namespace
 
-double plan_wide_tree(BinaryNode& root, const Prices& prices) {
-  const Forests forests = Planner{prices}.plan(root);
-  merge_leaves(root);
+double plan_wide_tree(BinaryTree& tree) {
+  const Forests forests = Planner{tree.prices}.plan(tree.root);
+  merge_leaves(tree.root, tree.merged_rows);
   return double(forests.cost[1]);
 }
 

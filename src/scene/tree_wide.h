@@ -22,10 +22,10 @@ struct Children {
   uint32_t split_count = 0;
 };
 
-/// Chooses the wide tree of a binary tree: the one that is cheapest by `prices`. Subtrees that
+/// Chooses the wide tree of a binary tree: the one that is cheapest by its prices. Subtrees that
 /// are cheaper as one leaf become leaves. Returns its cost: of a random ray through the root's
 /// box, in the unit of Prices. Inside ThreadPool::run.
-double plan_wide_tree(BinaryNode& root, const Prices& prices);
+double plan_wide_tree(BinaryTree& tree);
 
 /// The children of a wide node at `node` as planned; of a leaf: the leaf.
 Children children_of(BinaryNode& node);
