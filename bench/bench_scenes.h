@@ -41,8 +41,8 @@ BenchScene columns_hall(uint32_t triangles);
 /// The mesh of a PLY file in a closed room three times its size. Throws PlyError.
 BenchScene mesh_in_room(const std::string& file);
 
-/// The mesh of a PLY file as it is, seen from its middle along the longer horizontal axis, with the
-/// lamp as large as a fifth of the mesh under its top. Throws PlyError.
+/// The mesh of a PLY file as it is (+y is up), seen from its middle along the longer horizontal
+/// axis, with a lamp a tenth as large above the middle. Throws PlyError.
 BenchScene mesh_as_it_is(const std::string& file);
 
 /// A generated scene by name: "cornell", "sphere" or "hall", the latter two with an optional count

@@ -53,15 +53,23 @@ Meeting meet(const BenchScene& scene, uint32_t prim, const Ray<Value>& ray) {
   return out;
 }
 
-enum class Verdict { kSame, kTie, kDiffers };
+enum class Verdict { kSame, kTie, kBothRight, kDiffers };
 
-/// Counts the same triangle at another distance as it finds it.
+/// What can be said of two answers without trying every triangle: also of two triangles that both
+/// are met, at distances that rounding cannot tell apart. Counts the same triangle at another
+/// distance as it finds it.
 Verdict verdict(const BenchScene& scene, const Ray<Value>& ray, bool shadow, const Hit<Value>& ours,
                 const Hit<Value>& theirs, Differences& out) {
   if ((ours.prim == kNone) != (theirs.prim == kNone)) return Verdict::kDiffers;
   if (ours.prim == kNone || shadow) return Verdict::kSame;
-  if (ours.prim != theirs.prim)
-    return ulps_between(ours.t, theirs.t) <= 4 ? Verdict::kTie : Verdict::kDiffers;
+  if (ours.prim != theirs.prim) {
+    if (ulps_between(ours.t, theirs.t) <= 4) return Verdict::kTie;
+    const Meeting a = meet(scene, ours.prim, ray), b = meet(scene, theirs.prim, ray);
+    return a.possible() && b.possible() && a.t > a.t_slack && b.t > b.t_slack &&
+                   std::abs(a.t - b.t) <= a.t_slack + b.t_slack
+               ? Verdict::kBothRight
+               : Verdict::kDiffers;
+  }
   if (std::abs(ours.t - theirs.t) > 1e-5f * ours.t) {
     const Meeting meeting = meet(scene, ours.prim, ray);
     out.yat_t_off += !meeting.near(double(ours.t));
@@ -99,6 +107,7 @@ Differences compare(const BenchScene& scene, const RaySet& set, const std::vecto
   for (uint32_t i = 0; i < set.rays.size(); ++i) {
     const Verdict v = verdict(scene, set.rays[i], set.shadow, ours[i], theirs[i], out);
     out.ties += v == Verdict::kTie;
+    out.rounding += v == Verdict::kBothRight;
     if (v != Verdict::kDiffers) continue;
     out.hit_miss += (ours[i].prim == kNone) != (theirs[i].prim == kNone);
     bool keep = true;

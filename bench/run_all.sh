@@ -97,7 +97,8 @@ step() { # step NAME PERCENT COMMAND...: within its share of the time
   shift 2
   printf '== %s (at most %d s)\n' "$name" "$seconds" >&2
   rm -f "$output/$name.json"
-  timeout "$seconds" "$@" >&2 || code=$?
+  # In the foreground, so that an interrupt reaches the benchmark, too.
+  timeout --foreground "$seconds" "$@" >&2 || code=$?
   case $code in
     0) ;;
     124) missing+=("$name was cut off after $seconds s") ;;

@@ -72,5 +72,17 @@ TEST(Judge, CompareTellsTiesFromErrors) {
   EXPECT_EQ(d.wrong_rows, std::vector<uint32_t>{2});
 }
 
+TEST(Judge, TrianglesAsFarAsRoundingCanTellNeedNoJudge) {
+  // A second sheet 1e-6 behind the first: which of them is nearer, float cannot say. More rays
+  // than are judged.
+  const BenchScene scene = scene_of("sheets", {0, 0, 2, 1, 0, 2, 0, 1, 2,  //
+                                               0, 0, 2.000001f, 1, 0, 2.000001f, 0, 1, 2.000001f});
+  const RaySet set{"test", false, std::vector<Ray<Value>>(300, along_z(0.25f, 0.25f))};
+  const std::vector<Hit<Value>> ours(300, {2.00002f, 0, 0, 1}), theirs(300, {2, 0, 0, 0});
+  const Differences d = compare(scene, set, ours, theirs);
+  EXPECT_EQ(d.rounding, 300u);
+  EXPECT_EQ(d.unjudged + d.yat_wrong + d.other_wrong, 0u);
+}
+
 }  // namespace
 }  // namespace yat::bench
