@@ -186,6 +186,30 @@ TEST_P(TraverseLimits, DegenerateTrianglesAreNeverHit) {
   EXPECT_GT(found, 50u);
 }
 
+// A far ray is moved near before it is traced; one that ends before it comes near meets nothing.
+TEST_P(TraverseLimits, FarRaysThatEndEarlyMissAndAreFree) {
+  Mesh mesh;
+  add_box(mesh, {-1, -1, -1}, {1, 1, 1});
+  mesh.done();
+  const Tree tree = build(mesh);
+  Rng rng(12);
+  std::vector<Ray<Value>> rays, segments;
+  for (uint32_t i = 0; i < 300; ++i) {
+    const Vec o = random_direction(rng) * uniform(rng, 20, 1e4);
+    const Vec to = random_point(rng) * .9;
+    const double way = std::sqrt(dot(to - o, to - o));
+    const double end = i % 2 ? way - 4 : way;
+    rays.push_back(make_ray(o, unit(to - o), float(end)));
+    segments.push_back(make_ray(o, unit(to - o) * end));  // for shadows: to t = 1
+  }
+  const std::vector<Hit<Value>> hits = trace(kernels(), tree.view, rays);
+  const std::vector<uint32_t> occluded = trace_shadow(kernels(), tree.view, segments);
+  for (uint32_t i = 0; i < rays.size(); ++i) {
+    EXPECT_EQ(hits[i].prim == kNone, i % 2 == 1) << i;
+    EXPECT_EQ(occluded[i], uint32_t(i % 2 == 0)) << i;
+  }
+}
+
 TEST_P(TraverseLimits, EmptyTree) {
   Mesh mesh;
   mesh.done();

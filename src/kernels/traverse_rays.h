@@ -183,8 +183,11 @@ YAT_INLINE void sort_rays(const TreeView& tree, float extent, const Columns& ray
         const uint32_t i = row + uint32_t(__builtin_ctz(bits));
         const float org[3] = {rays.org_x[i], rays.org_y[i], rays.org_z[i]};
         const float dir[3] = {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]};
+        float end = 1.f;
+        if constexpr (requires { rays.t_max; }) end = rays.t_max[i];
         double shift = 0;
-        if (shift_of_far_ray(tree, double(extent), org, dir, shift)) {
+        // One that ends before it comes near is a miss too.
+        if (shift_of_far_ray(tree, double(extent), org, dir, shift) && float(shift) < end) {
           stream.shift[i] = float(shift);
         } else {
           stream.class_of_row[i] = kLeftOut;
