@@ -69,6 +69,14 @@ std::string holds(const Description& description, const Scene& scene) {
       scene.degenerate_triangles ? fmt::format(" ({} without area)", scene.degenerate_triangles)
                                  : std::string(),
       scene.spheres.size(), scene.planes.size());
+  if (!scene.instances.empty()) {
+    uint64_t placed = 0;
+    for (const SharedObject& object : scene.instances.objects)
+      placed += object.instances * object.triangles;
+    text += fmt::format("  instances  {} of {} objects: {} triangles stored, {} placed\n",
+                        scene.instances.rows.size(), scene.instances.objects.size(),
+                        scene.instances.triangles.size(), placed);
+  }
   text += "  materials ";
   std::string materials;
   for (uint32_t kind = 0; kind < kMaterialKinds; ++kind)
@@ -100,8 +108,9 @@ std::string bins_of(const Scene& scene) {
   for (size_t i = 1; i < scene.bins.size(); ++i) {
     const Bin& bin = scene.bins[i];
     text += fmt::format(
-        "  {:>2}  {}, {}{}: {} primitives\n", i, kGeometryNames[uint32_t(bin.geometry)],
-        kMaterialNames[uint32_t(bin.material)], bin.emissive ? ", emissive" : "", bin.primitives);
+        "  {:>2}  {}{}, {}{}: {} primitives\n", i, kGeometryNames[uint32_t(bin.geometry)],
+        bin.instanced ? " in instances" : "", kMaterialNames[uint32_t(bin.material)],
+        bin.emissive ? ", emissive" : "", bin.primitives);
   }
   return text;
 }
@@ -143,6 +152,25 @@ std::string tree_of(const Tree& tree) {
       s.build_seconds, shape_of(s));
 }
 
+/// Objects stored once, and how much the others of their instances would have been.
+std::string instances_of(const Instances& instances) {
+  std::string text = "Instances\n";
+  if (instances.empty())
+    return text + fmt::format(
+                      "  none shared: an object is stored once when it has more than one instance, "
+                      "and {}\n  triangles, or {} in all instances together (--instances)\n",
+                      kSharedTriangles, kCopiedTriangles);
+  for (const SharedObject& object : instances.objects)
+    text += fmt::format(
+        "  object \"{}\": {} instances of {} triangles, tree of {} nodes, deepest "
+        "way {}\n",
+        object.name, object.instances, object.triangles, object.tree.statistics.nodes,
+        object.tree.statistics.max_depth);
+  const TreeStatistics& top = instances.top.statistics;
+  text += fmt::format("  tree above them: {} nodes, deepest way {}\n", top.nodes, top.max_depth);
+  return text;
+}
+
 std::string memory_of(const Scene& scene) {
   std::string text = "Memory [bytes]\n";
   const auto line = [&](std::string_view name, size_t bytes) {
@@ -156,6 +184,10 @@ std::string memory_of(const Scene& scene) {
   line("tree nodes", scene.tree.nodes.bytes());
   line("tree blocks", scene.tree.blocks.bytes());
   line("tree occluder masks", scene.tree.block_occluders.bytes());
+  if (!scene.instances.empty()) {
+    line("objects, each once", scene.instances.object_bytes());
+    line("their instances", scene.instances.instance_bytes());
+  }
   line("lights", scene.lights.bytes());
   line("light choice", scene.light_choice.bytes());
   for (uint32_t kind = 0; kind < kMaterialKinds; ++kind)
@@ -178,6 +210,7 @@ std::string info_text(const Description& description, const Scene& scene, const 
   if (!steps.empty() && steps.back() != '\n') steps += '\n';
   text += steps;
   text += tree_of(scene.tree);
+  if (!description.instances.empty()) text += instances_of(scene.instances);
   text += memory_of(scene);
   return text;
 }

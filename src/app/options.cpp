@@ -39,6 +39,8 @@ constexpr OptionText kRenderOptions[] = {
     {"--seed", "N", "0", "another seed gives another, independent picture"},
     {"--resolution", "WxH", "the film's", "size of the full picture in pixels"},
     {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
+    {"--instances", "auto|copy|share", "auto",
+     "objects placed by ObjectInstance: copied, stored once, or as their size says"},
     {"--isa", "NAME", "YAT_ISA, or the best here", "instruction set of the kernels"},
     {"--tree", "auto|kd", "the scene's",
      "tree over the triangles; auto: the fastest for them, kd: a strict kd-tree; the picture is "
@@ -62,6 +64,8 @@ constexpr OptionText kInfoOptions[] = {
     {"--sampler", "sobol|independent", "sobol", "plan for this sampler"},
     {"--resolution", "WxH", "the film's", "size of the full picture in pixels"},
     {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
+    {"--instances", "auto|copy|share", "auto",
+     "objects placed by ObjectInstance: copied, stored once, or as their size says"},
     {"--isa", "NAME", "YAT_ISA, or the best here", "instruction set of the kernels"},
     {"--tree", "auto|kd", "the scene's",
      "tree over the triangles; auto: the fastest for them, kd: a strict kd-tree; the picture is "
@@ -79,6 +83,10 @@ constexpr std::array<std::pair<std::string_view, TreeChoice>, 2> kTrees = {
     {{"auto", TreeChoice::kAuto}, {"kd", TreeChoice::kKd}}};
 constexpr std::array<std::pair<std::string_view, ColourMode>, 2> kColourModes = {
     {{"bands", ColourMode::kBands}, {"rgb", ColourMode::kRgb}}};
+constexpr std::array<std::pair<std::string_view, InstanceMode>, 3> kInstanceModes = {
+    {{"auto", InstanceMode::kAuto},
+     {"copy", InstanceMode::kCopy},
+     {"share", InstanceMode::kShare}}};
 constexpr std::array<std::pair<std::string_view, ToneMap>, 5> kToneMaps = {
     {{"linear", ToneMap::kLinear},
      {"reinhard", ToneMap::kReinhard},
@@ -145,7 +153,7 @@ std::array<T, N> numbers(std::string_view option, std::string_view text, char se
 /// Text of every option as given; read into Arguments once all are known.
 struct Given {
   std::string spp, samples_range, time, threads, integrator, max_depth, sampler, colour, seed,
-      resolution, crop, tree, tone_map, exposure, progress;
+      resolution, crop, instances, tree, tone_map, exposure, progress;
   bool verbose = false, quiet = false;
 };
 
@@ -183,6 +191,7 @@ void add_shared(Adder& add, Arguments& arguments, Given& given) {
   add("--sampler", given.sampler);
   add("--resolution", given.resolution);
   add("--crop", given.crop);
+  add("--instances", given.instances);
   add("--isa", arguments.isa);
   add("--tree", given.tree);
   add("--verbose", given.verbose);
@@ -249,6 +258,8 @@ void read_given(const Given& given, Arguments& to) {
     to.crop = crop;
   }
   if (!given.tree.empty()) to.tree = by_name("--tree", given.tree, kTrees);
+  if (!given.instances.empty())
+    to.instances = by_name("--instances", given.instances, kInstanceModes);
   if (!given.tone_map.empty()) to.tone_map = by_name("--tonemap", given.tone_map, kToneMaps);
   if (!given.exposure.empty())
     to.exposure_stops = number<float>("--exposure", given.exposure, given.exposure, -100.f, 100.f);

@@ -54,6 +54,7 @@ struct Arguments {
   uint32_t width = 0, height = 0;            ///< 0: as the film says [pixels]
   std::optional<std::array<float, 4>> crop;  ///< fractions x0 x1 y0 y1
   TreeChoice tree = TreeChoice::kFromScene;
+  InstanceMode instances = InstanceMode::kAuto;
   std::string isa;
   std::optional<ToneMap> tone_map;
   float exposure_stops = 0;

@@ -72,6 +72,7 @@ void compile(const Arguments& arguments, const KernelTable& kernels, ThreadPool&
     for (size_t i = 0; i < 4; ++i) options.crop[i] = (*arguments.crop)[i];
     options.crop_given = true;
   }
+  options.instances = arguments.instances;
   loaded.scene = compile_scene(loaded.description, options, pool, diagnostics);
   if (arguments.tone_map) loaded.scene.film.tone_map = *arguments.tone_map;
   loaded.scene.film.exposure_stops = arguments.exposure_stops;

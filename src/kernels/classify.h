@@ -6,27 +6,61 @@
 
 namespace yat::YAT_ISA {
 
+/// Bins of hits, once paths at their last vertex have been told from the others: those go on only
+/// to bins that emit.
+template <class A>
+YAT_INLINE UInt<A> end_last_vertices(const UInt<A>& bin, const UInt<A>& depth, const Mask<A>& hit,
+                                     uint64_t emissive_bins, uint32_t max_depth) {
+  const UInt<A> zero(0u);
+  const Mask<A> last = mask_of<A>((depth & UInt<A>(0xffffu)) >= UInt<A>(max_depth));
+  if (!any<A>(last & hit)) return bin;
+  const UInt<A> low_bins{uint32_t(emissive_bins)}, high_bins{uint32_t(emissive_bins >> 32)};
+  const UInt<A> set = select<A>(mask_of<A>(bin < UInt<A>(32u)), low_bins, high_bins);
+  const Mask<A> emits = mask_of<A>(((set >> (bin & UInt<A>(31u))) & UInt<A>(1u)) != zero);
+  return select<A>(last & !emits, zero, bin);
+}
+
 /// See KernelTable::classify_hits.
 template <class A>
 void classify_hits(const uint32_t* prim_bin, uint64_t emissive_bins, uint32_t max_depth,
                    const Hit<ConstColumn>& hits, const uint32_t* depth, uint32_t* bin,
                    uint32_t n) noexcept {
-  const UInt<A> low_bins{uint32_t(emissive_bins)}, high_bins{uint32_t(emissive_bins >> 32)};
-  const UInt<A> none(kNone), zero(0u), one(1u);
   for (uint32_t row = 0; row < n; row += kLanes<A>) {
     const UInt<A> prim = load<A>(hits.prim, row);
-    const Mask<A> hit = mask_of<A>(prim != none) & tail_mask<A>(row, n);
-    UInt<A> b = zero;
+    const Mask<A> hit = mask_of<A>(prim != UInt<A>(kNone)) & tail_mask<A>(row, n);
+    UInt<A> b(0u);
     if (any<A>(hit)) {
       b = only<A>(hit, gather<A>(prim_bin, only<A>(hit, prim)));
-      const Mask<A> last =
-          mask_of<A>((load<A>(depth, row) & UInt<A>(0xffffu)) >= UInt<A>(max_depth));
-      if (any<A>(last & hit)) {
-        const UInt<A> set = select<A>(mask_of<A>(b < UInt<A>(32u)), low_bins, high_bins);
-        const Mask<A> emits = mask_of<A>(((set >> (b & UInt<A>(31u))) & one) != zero);
-        b = select<A>(last & !emits, zero, b);
-      }
+      b = end_last_vertices<A>(b, load<A>(depth, row), hit, emissive_bins, max_depth);
     }
+    store<A>(b, bin, row);
+  }
+}
+
+/// See KernelTable::classify_instance_hits.
+template <class A>
+void classify_instance_hits(const InstancesView& instances, const uint32_t* prim_bin,
+                            uint64_t emissive_bins, uint32_t max_depth,
+                            const Hit<ConstColumn>& hits, const uint32_t* instance,
+                            const uint32_t* depth, uint32_t* bin, uint32_t n) noexcept {
+  const UInt<A> none(kNone);
+  const uint32_t* const first_shape = instances.rows.words + kFirstShapeWord;
+  for (uint32_t row = 0; row < n; row += kLanes<A>) {
+    const UInt<A> prim = load<A>(hits.prim, row), place = load<A>(instance, row);
+    const Mask<A> hit = mask_of<A>(prim != none) & tail_mask<A>(row, n);
+    const Mask<A> placed = hit & mask_of<A>(place != none), once = hit & !placed;
+    UInt<A> b(0u);
+    if (any<A>(once)) b = only<A>(once, gather<A>(prim_bin, only<A>(once, prim)));
+    if (any<A>(placed)) {
+      const UInt<A> shape =
+          gather<A>(first_shape, only<A>(placed, place * UInt<A>(row_words<InstanceRow>))) +
+          gather<A>(instances.triangle_shape, only<A>(placed, prim));
+      const UInt<A> of_shape = gather<A>(
+          instances.shapes.words, only<A>(placed, shape * UInt<A>(row_words<InstanceShapeRow>)));
+      b = select<A>(placed, of_shape, b);
+    }
+    if (any<A>(hit))
+      b = end_last_vertices<A>(b, load<A>(depth, row), hit, emissive_bins, max_depth);
     store<A>(b, bin, row);
   }
 }

@@ -11,5 +11,6 @@ void fill_light(KernelTable& table);       ///< light sampling
 void fill_shade(KernelTable& table);       ///< shading and the BSDF batches, per material
 void fill_accumulate(KernelTable& table);  ///< shadow rays -> samples
 void fill_traverse(KernelTable& table);
+void fill_instances(KernelTable& table);  ///< all that only scenes with shared objects need
 
 }  // namespace yat::YAT_ISA

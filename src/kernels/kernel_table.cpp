@@ -20,6 +20,7 @@ const KernelTable* kernel_table() {
     fill_shade(t);
     fill_accumulate(t);
     fill_traverse(t);
+    fill_instances(t);
     return t;
   }();
   return &table;

@@ -89,6 +89,34 @@ YAT_INLINE LocalGeometry<A> plane_geometry(const Rows<PlaneRow>& planes, const V
   return g;
 }
 
+/// A surface as it is handed on; `passed`: see PathState.
+template <class A>
+YAT_INLINE Surface<Lanes<A>::template Of> surface_of(const LocalGeometry<A>& g,
+                                                     const Hit<Lanes<A>::template Of>& hit,
+                                                     const Vec3<A>& dir, const Float<A>& passed) {
+  Surface<Lanes<A>::template Of> s;
+  s.pos_x = g.pos.x;
+  s.pos_y = g.pos.y;
+  s.pos_z = g.pos.z;
+  s.ng_x = g.ng.x;
+  s.ng_y = g.ng.y;
+  s.ng_z = g.ng.z;
+  s.ns_x = g.ns.x;
+  s.ns_y = g.ns.y;
+  s.ns_z = g.ns.z;
+  s.wo_x = -dir.x;
+  s.wo_y = -dir.y;
+  s.wo_z = -dir.z;
+  s.offset = g.offset;
+  s.distance = hit.t + passed;
+  s.u = g.u;
+  s.v = g.v;
+  s.prim = hit.prim;
+  s.parameter = g.parameter;
+  s.light = g.light;
+  return s;
+}
+
 /// Surfaces and path states of rows order[0..n): see KernelTable::make_surfaces.
 template <class A, GeometryKind kKind>
 void make_surfaces(const SceneView& scene, const uint32_t* order, const Ray<ConstColumn>& rays,
@@ -117,26 +145,7 @@ void make_surfaces(const SceneView& scene, const uint32_t* order, const Ray<Cons
             hit.prim - UInt<A>(geometry.triangles.count + geometry.spheres.count));
     }
     const PathState<Lanes<A>::template Of> path = gather<A>(paths, from);
-    Surface<Lanes<A>::template Of> s;
-    s.pos_x = g.pos.x;
-    s.pos_y = g.pos.y;
-    s.pos_z = g.pos.z;
-    s.ng_x = g.ng.x;
-    s.ng_y = g.ng.y;
-    s.ng_z = g.ng.z;
-    s.ns_x = g.ns.x;
-    s.ns_y = g.ns.y;
-    s.ns_z = g.ns.z;
-    s.wo_x = -dir.x;
-    s.wo_y = -dir.y;
-    s.wo_z = -dir.z;
-    s.offset = g.offset;
-    s.distance = hit.t + path.passed;
-    s.u = g.u;
-    s.v = g.v;
-    s.prim = hit.prim;
-    s.parameter = g.parameter;
-    s.light = g.light;
+    const Surface<Lanes<A>::template Of> s = surface_of<A>(g, hit, dir, path.passed);
     store<A>(s, surfaces, row);
     store<A>(path, paths_out, row);
   }

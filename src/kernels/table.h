@@ -131,6 +131,28 @@ struct KernelTable {
   void (*shadow_planes)(const Rows<PlaneRow>&, const ShadowRay<ConstColumn>&, uint32_t* occluded,
                         uint32_t n) noexcept;
 
+  // -- instances: for scenes that have shared objects ---------------------------------------------
+  size_t (*instance_scratch_bytes)(const InstancesView&, uint32_t max_rays) noexcept;
+  /// Hits is in and out, as for analytic shapes; prim of a hit here is a row of
+  /// InstancesView::triangles, and instance[i] the instance row, or kNone where the hit stays.
+  LaneCount (*intersect_instances)(const InstancesView&, const Ray<ConstColumn>&,
+                                   const Hit<Column>&, uint32_t* instance, uint32_t n,
+                                   const Scratch&) noexcept;
+  /// occluded is in and out. [1] honours block_occluders.
+  LaneCount (*shadow_instances[2])(const InstancesView&, const ShadowRay<ConstColumn>&,
+                                   uint32_t* occluded, uint32_t n, const Scratch&) noexcept;
+  /// classify_hits where instance[i] says that the hit is in an instance.
+  void (*classify_instance_hits)(const InstancesView&, const uint32_t* prim_bin,
+                                 uint64_t emissive_bins, uint32_t max_depth,
+                                 const Hit<ConstColumn>&, const uint32_t* instance,
+                                 const uint32_t* depth, uint32_t* bin, uint32_t n) noexcept;
+  /// make_surfaces for bins of instanced triangles; [1] with vertex data.
+  void (*make_instance_surfaces[2])(const SceneView&, const uint32_t* order,
+                                    const Ray<ConstColumn>&, const Hit<ConstColumn>&,
+                                    const uint32_t* instance, const PathState<ConstColumn>&,
+                                    const Surface<Column>&, const PathState<Column>&,
+                                    uint32_t n) noexcept;
+
   // -- sort -------------------------------------------------------------------------------------
   /// bin[i] of each hit: prim_bin[prim]; 0 for a miss, and for a path at max_depth whose bin has no
   /// bit in `emissive_bins` (bit b: bin b emits; at most 64 bins).

@@ -11,6 +11,8 @@
 // Source: Wald, Gribble, Boulos, Kensler, "SIMD Ray Stream Tracing", 2007; Tsakok, "Faster
 // Incoherent Rays: Multi-BVH Ray Stream Tracing", 2009; padding of boxes: see tree_collapse.cpp.
 
+#include <type_traits>
+
 #include "kernels/traverse_leaf.h"
 
 namespace yat::YAT_ISA {
@@ -35,8 +37,9 @@ constexpr size_t list_words(uint32_t rays) {
   return padded_rows(rays) + kRowPad;  // A packed store may start at the last ray.
 }
 
-/// One pass over the tree.
-template <class A, Query Q>
+/// One pass over the tree. Leaves: what visits leaves where they are not blocks of triangles
+/// (kernels/traverse_instances.h).
+template <class A, Query Q, class Leaves = void>
 struct Traversal {
   static constexpr uint32_t W = kLanes<A>;
   const TreeView& tree;
@@ -44,13 +47,16 @@ struct Traversal {
   uint32_t second_kz, third_kz;  ///< first slots of the classes kz = 1 and 2 of this pass
   uint32_t octant;               ///< of all rays of a closest-hit pass
   LaneCount count;
+  Leaves* leaves = nullptr;
 
   YAT_INLINE uint32_t kz_of(uint32_t slot) const {
     return uint32_t(slot >= second_kz) + uint32_t(slot >= third_kz);
   }
 
   YAT_INLINE void prefetch(uint32_t child) const {
-    if (child & kLeafBit) {
+    if (!std::is_void_v<Leaves> && (child & kLeafBit)) {
+      if constexpr (!std::is_void_v<Leaves>) leaves->prefetch(child & ~kLeafBit);
+    } else if (child & kLeafBit) {
       const float* p = tree.blocks + size_t((child & ~kLeafBit) >> 5) * tree.block_width * 10;
       for (uint32_t line = 0; line < tree.block_width * 10; line += 16)
         __builtin_prefetch(p + line);
@@ -243,6 +249,13 @@ struct Traversal {
       uint32_t left = lengths[c];
       if (left >= W) left = drop_done(lists[c], enters[c], left);
       if (!left) continue;
+      if constexpr (!std::is_void_v<Leaves>) {
+        if (leaf) {
+          left = drop_done(lists[c], enters[c], left);
+          if (left) leaves->visit(child & ~kLeafBit, lists[c], left, arena, count);
+          continue;
+        }
+      }
       if (leaf && left < W) {
         visit_leaf_by_ray(child, lists[c], enters[c], left);
       } else if (leaf) {

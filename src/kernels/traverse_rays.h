@@ -83,7 +83,7 @@ YAT_INLINE RawRays<A> load_raw(const Columns& rays, uint32_t row) {
   raw.dir[0] = load<A>(rays.dir_x, row);
   raw.dir[1] = load<A>(rays.dir_y, row);
   raw.dir[2] = load<A>(rays.dir_z, row);
-  if constexpr (Q == Query::kClosest) {
+  if constexpr (requires { rays.t_max; }) {
     raw.t_max = load<A>(rays.t_max, row);
   } else {
     raw.t_max = Float<A>(1.f);

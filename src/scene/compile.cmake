@@ -10,7 +10,11 @@ target_sources(
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_geometry.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_lights.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_materials.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_mesh.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_objects.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_place.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_shapes.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_textures.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/data_files.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/instances.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/parameters.cpp)

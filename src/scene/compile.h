@@ -14,6 +14,7 @@
 #include "scene/colour_model.h"
 #include "scene/compiled.h"
 #include "scene/description.h"
+#include "scene/instances.h"
 #include "scene/tree_build.h"
 
 namespace yat {
@@ -23,7 +24,8 @@ struct Bin {
   GeometryKind geometry = GeometryKind::kTriangleFlat;
   MaterialKind material = MaterialKind::kMatte;
   bool emissive = false;
-  uint64_t primitives = 0;  ///< rows of the scene in this bin
+  bool instanced = false;   ///< triangles of shared objects; else rows of the scene's own tables
+  uint64_t primitives = 0;  ///< in this bin; those of an object count once per instance
 };
 inline constexpr uint32_t kMaxBins = 64;  ///< 4 geometry kinds, 64 material kinds: in practice < 20
 
@@ -33,6 +35,17 @@ enum class TreeChoice {
   kAuto,       ///< the best for the triangles
   kKd,         ///< a strict kd-tree
 };
+/// What becomes of ObjectInstance.
+enum class InstanceMode {
+  kAuto,   ///< as kSharedTriangles says
+  kCopy,   ///< every instance is a copy in the scene's own tables
+  kShare,  ///< every object that can be is stored once
+};
+/// An object with more than one instance is stored once if it has this many triangles, from which
+/// on rays find it as soon as they find copies (docs/decisions.md), ...
+inline constexpr uint64_t kSharedTriangles = 1024;
+/// ... or if its copies would hold more than this together, some 40 MB.
+inline constexpr uint64_t kCopiedTriangles = 1 << 18;
 
 struct CompileOptions {
   uint32_t block_width = 16;  ///< lanes of the kernels that will run: width of the tree's blocks
@@ -41,6 +54,7 @@ struct CompileOptions {
   bool crop_given = false;
   TreeChoice tree = TreeChoice::kFromScene;
   ColourMode colour = ColourMode::kBands;
+  InstanceMode instances = InstanceMode::kAuto;
 };
 
 /// The compiled scene: owns all columns.
@@ -59,6 +73,7 @@ struct Scene {
   RowTable<PlaneRow> planes;
   AlignedArray<uint32_t> prim_bin;
   Tree tree;
+  Instances instances;
   RowTable<LightRow> lights;
   RowTable<LightChoice> light_choice;
   std::array<AlignedArray<uint32_t>, kMaterialKinds> parameters;  ///< row_words<its record> per row

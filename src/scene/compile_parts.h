@@ -4,6 +4,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -169,21 +170,50 @@ struct Bounds;
 /// Grows `bounds` by the finite points of the shape; planes have none.
 void add_to_bounds(const PlacedShape& placed, Bounds& bounds);
 
+struct MeshRows {
+  bool flat = true;       ///< no vertex rows were appended: the face's normal is all there is
+  uint32_t left_out = 0;  ///< triangles without area or with a vertex that is not finite
+};
+/// Appends the triangles of a placed mesh, relative to `center`, their outside by lxs 2.5, and
+/// their vertex rows unless the mesh turns out flat. parameter = 0, light = kNone.
+MeshRows add_mesh_rows(const PlacedShape& placed, const Mesh& mesh, const glm::dvec3& center,
+                       std::vector<TriangleRow<Value>>& triangles,
+                       std::vector<TriangleVertexRow<Value>>& vertices, Diagnostics& diagnostics);
+/// The light that a triangle is.
+LightRow<Value> triangle_light(const TriangleRow<Value>& row, const glm::dvec3& radiance);
+
+/// Whether a bin's primitives are in the scene's own tables, or in shared objects.
+enum class Placing : uint32_t { kOnce, kByInstance };
+
+/// What tells bins apart, and the bins that follow: in the order of their keys, so that they do not
+/// depend on the order of shapes.
+class BinKeys {
+ public:
+  static uint32_t of(GeometryKind geometry, MaterialKind material, bool emissive, Placing placing);
+  void add(uint32_t key) { bin_of_key_.emplace(key, 0); }
+  /// Writes scene.bins (no primitives counted yet).
+  void number(Scene& scene);
+  uint32_t bin(uint32_t key) const { return bin_of_key_.at(key); }
+
+ private:
+  std::map<uint32_t, uint32_t> bin_of_key_;
+};
+
 /// Collects rows in scene space; see compile_geometry.cpp.
 class GeometryRows {
  public:
   GeometryRows(const glm::dvec3& center, Diagnostics& diagnostics)
       : center_(center), diagnostics_(diagnostics) {}
   void add(const PlacedShape& placed);
-  /// Writes tables, bins and the tree's input into the scene. `occludes` stays empty if all do.
-  void finish(Scene& scene, std::vector<uint8_t>& occludes);
+  void add_keys(BinKeys& keys) const;
+  /// Writes tables and the tree's input into the scene. `occludes` stays empty if all do.
+  void finish(const BinKeys& keys, Scene& scene, std::vector<uint8_t>& occludes);
   std::vector<LightRow<Value>>& lights() { return lights_; }
 
  private:
   void add_mesh(const PlacedShape& placed, const Mesh& mesh);
   void add_sphere(const PlacedShape& placed);
   void add_plane(const PlacedShape& placed);
-  uint32_t bin_key(GeometryKind geometry, const PlacedShape& placed) const;
 
   /// Rows [first, ..) of a primitive kind that share a bin.
   struct Run {

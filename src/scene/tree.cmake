@@ -8,4 +8,5 @@ target_sources(
           ${CMAKE_CURRENT_SOURCE_DIR}/tree_reinsert.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/tree_plan.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/tree_collapse.cpp
-          ${CMAKE_CURRENT_SOURCE_DIR}/tree_verify.cpp)
+          ${CMAKE_CURRENT_SOURCE_DIR}/tree_verify.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/tree_top.cpp)

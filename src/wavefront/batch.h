@@ -10,6 +10,7 @@
 //
 // Columns are indexed by row, except sums, slot_sample (by slot).
 
+#include <algorithm>
 #include <cstdint>
 
 #include "kernels/table.h"
@@ -27,6 +28,7 @@ struct Batch {
   Batch(const Scene& scene, const Plan& plan, uint32_t batch_rows)
       : rows(batch_rows),
         hits(batch_rows),
+        instance(plan.instances ? batch_rows : 0),
         bin(batch_rows),
         order(batch_rows),
         shadow(batch_rows),
@@ -48,8 +50,14 @@ struct Batch {
       rays[i].resize(batch_rows);
       paths[i].resize(batch_rows);
     }
-    if (plan.triangles) {
-      scratch_memory.resize(plan.kernels->traversal_scratch_bytes(scene.tree.view, batch_rows));
+    size_t scratch_bytes = 0;
+    if (plan.triangles)
+      scratch_bytes = plan.kernels->traversal_scratch_bytes(scene.tree.view, batch_rows);
+    if (plan.instances)
+      scratch_bytes = std::max(
+          scratch_bytes, plan.kernels->instance_scratch_bytes(scene.instances.view(), batch_rows));
+    if (scratch_bytes) {
+      scratch_memory.resize(scratch_bytes);
       scratch = {scratch_memory.data(), scratch_memory.size()};
     }
     // Lowest slot on top.
@@ -64,6 +72,7 @@ struct Batch {
   Table<Ray> rays[2];
   Table<PathState> paths[2];
   Table<Hit> hits;
+  AlignedArray<uint32_t> instance;  ///< per hit, where the plan has instances
   AlignedArray<uint32_t> bin, order;
   Table<ShadowRay> shadow;
   AlignedArray<uint32_t> occluded;
@@ -81,11 +90,11 @@ struct Batch {
   Scratch scratch;
 
   size_t bytes() const {
-    size_t total = hits.bytes() + bin.bytes() + order.bytes() + shadow.bytes() + occluded.bytes() +
-                   sums.bytes() + slot_sample.bytes() + free_slots.bytes() + finished.bytes() +
-                   camera.bytes() + film_u.bytes() + film_v.bytes() + lens_u.bytes() +
-                   lens_v.bytes() + surfaces.bytes() + chunk_paths.bytes() + randoms.bytes() +
-                   lights.bytes() + scratch_memory.bytes();
+    size_t total = hits.bytes() + instance.bytes() + bin.bytes() + order.bytes() + shadow.bytes() +
+                   occluded.bytes() + sums.bytes() + slot_sample.bytes() + free_slots.bytes() +
+                   finished.bytes() + camera.bytes() + film_u.bytes() + film_v.bytes() +
+                   lens_u.bytes() + lens_v.bytes() + surfaces.bytes() + chunk_paths.bytes() +
+                   randoms.bytes() + lights.bytes() + scratch_memory.bytes();
     for (int i = 0; i < 2; ++i) total += rays[i].bytes() + paths[i].bytes();
     return total;
   }

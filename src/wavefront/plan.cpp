@@ -37,6 +37,11 @@ void need_kernels(const Plan& plan) {
   }
   if (plan.spheres) need(k.intersect_spheres && k.shadow_spheres, k, "intersect_spheres");
   if (plan.planes) need(k.intersect_planes && k.shadow_planes, k, "intersect_planes");
+  if (plan.instances) {
+    need(k.instance_scratch_bytes && k.intersect_instances, k, "intersect_instances");
+    need(k.classify_instance_hits, k, "classify_instance_hits");
+    if (plan.lights) need(k.shadow_instances[plan.instance_mask], k, "shadow_instances");
+  }
   need(k.classify_hits, k, "classify_hits");
   if (plan.lights) {
     need(k.sample_lights[plan.light_kernel], k, "sample_lights");
@@ -44,7 +49,11 @@ void need_kernels(const Plan& plan) {
   }
   for (uint32_t b = 1; b < plan.bins.size(); ++b) {
     const BinPlan& bin = plan.bins[b];
-    need(k.make_surfaces[uint32_t(bin.bin.geometry)], k, "make_surfaces");
+    if (bin.bin.instanced)
+      need(k.make_instance_surfaces[bin.bin.geometry == GeometryKind::kTriangleVertex], k,
+           "make_instance_surfaces");
+    else
+      need(k.make_surfaces[uint32_t(bin.bin.geometry)], k, "make_surfaces");
     need(k.shade[uint32_t(bin.bin.material)], k, "shade");
     if (bin.emission) need(k.add_emission, k, "add_emission");
   }
@@ -80,6 +89,8 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
   plan.spheres = scene.spheres.size() > 0;
   plan.planes = scene.planes.size() > 0;
   plan.shadow_mask = !scene.all_occlude;
+  plan.instances = !scene.instances.empty();
+  plan.instance_mask = !scene.instances.all_occlude;
 
   // Light is sampled at vertices below max_depth only.
   plan.lights = scene.lights.size() > 0 && options.max_depth > 0;
@@ -125,10 +136,19 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
     line(Stage::kIntersect, fmt::format("intersect_spheres: {} spheres", scene.spheres.size()));
   if (plan.planes)
     line(Stage::kIntersect, fmt::format("intersect_planes: {} planes", scene.planes.size()));
-  line(Stage::kSort, fmt::format("classify_hits: {} bins", plan.bins.size() - 1));
+  if (plan.instances)
+    line(Stage::kIntersect,
+         fmt::format("intersect_instances: {} instances, {} nodes above them, {} objects of {} "
+                     "triangles",
+                     scene.instances.rows.size(), scene.instances.top.view.node_count,
+                     scene.instances.objects.size(), scene.instances.triangles.size()));
+  line(Stage::kSort,
+       fmt::format("{}: {} bins", plan.instances ? "classify_instance_hits" : "classify_hits",
+                   plan.bins.size() - 1));
   for (uint32_t b = 1; b < plan.bins.size(); ++b) {
     const BinPlan& bin = plan.bins[b];
-    std::string what = fmt::format("bin {}, {} primitives: make_surfaces {}", b, bin.bin.primitives,
+    std::string what = fmt::format("bin {}, {} primitives: {} {}", b, bin.bin.primitives,
+                                   bin.bin.instanced ? "make_instance_surfaces" : "make_surfaces",
                                    kGeometryNames[uint32_t(bin.bin.geometry)]);
     if (bin.emission) what += ", add_emission";
     std::string numbers;
@@ -145,11 +165,14 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   }
   if (plan.lights) {
     line(Stage::kIntersectShadow,
-         fmt::format("{}{}{}",
+         fmt::format("{}{}{}{}",
                      plan.triangles
                          ? plan.shadow_mask ? "intersect_shadow (masked)" : "intersect_shadow"
                          : "no triangles",
-                     plan.spheres ? ", shadow_spheres" : "", plan.planes ? ", shadow_planes" : ""));
+                     plan.spheres ? ", shadow_spheres" : "", plan.planes ? ", shadow_planes" : "",
+                     !plan.instances      ? ""
+                     : plan.instance_mask ? ", shadow_instances (masked)"
+                                          : ", shadow_instances"));
     line(Stage::kAccumulate, fmt::format("add_unoccluded: {} lights", scene.lights.size()));
   }
 
@@ -165,6 +188,7 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   skipped(plan.triangles, "intersect_closest", "no triangle in the scene");
   skipped(plan.spheres, "intersect_spheres", "no sphere in the scene");
   skipped(plan.planes, "intersect_planes", "no plane in the scene");
+  skipped(plan.instances, "intersect_instances", "no object is stored once for its instances");
   skipped(plan.thin_lens, "draw lens", "the camera is a pinhole");
   skipped(plan.shadow_mask || !plan.lights, "intersect_shadow (masked)",
           "every triangle stops shadow rays");

@@ -35,8 +35,10 @@ struct Plan {
   uint64_t emissive_bins = 0;
   bool thin_lens = false;
   bool triangles = false, spheres = false, planes = false;  ///< which intersect stages run
-  bool shadow_mask = false;   ///< some triangle is see-through: the masked any-hit kernel
-  uint32_t light_kernel = 0;  ///< index into KernelTable::sample_lights
+  bool instances = false;      ///< shared objects: a second level of trees, and its kernels
+  bool instance_mask = false;  ///< as shadow_mask, of shared objects
+  bool shadow_mask = false;    ///< some triangle is see-through: the masked any-hit kernel
+  uint32_t light_kernel = 0;   ///< index into KernelTable::sample_lights
   bool lights = false;
 };
 

@@ -108,7 +108,7 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
   for (;;) {
     const std::optional<Point> hit = nearest(scene, ray);
     if (!hit) break;
-    const MaterialKind material = scene.bins[scene.prim_bin[hit->prim]].material;
+    const MaterialKind material = scene.bins[hit->bin].material;
     const Vec wo = -ray.direction;
 
     if (const double cos = glm::dot(hit->ng, wo); hit->light != kNone && cos > 0) {

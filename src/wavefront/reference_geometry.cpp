@@ -1,4 +1,5 @@
 #include <cmath>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <numbers>
 
@@ -66,16 +67,68 @@ Point triangle_point(const Scene& scene, uint32_t prim, const TriangleHit& hit) 
   point.position = triangle.p0 + hit.u * triangle.e1 + hit.v * triangle.e2;
   point.ng = point.ns = glm::normalize(glm::cross(triangle.e1, triangle.e2));
   point.offset = kRounding * double(row.extent);
-  point.prim = prim;
+  point.bin = scene.prim_bin[prim];
   point.parameter = row.parameter;
   point.light = row.light;
-  const GeometryKind kind = scene.bins[scene.prim_bin[prim]].geometry;
+  const GeometryKind kind = scene.bins[point.bin].geometry;
   if (kind == GeometryKind::kTriangleVertex) {
     const TriangleVertexRow<Value> n = scene.triangle_vertices.row(prim);
     const Vec sum = (1 - hit.u - hit.v) * Vec(n.n0_x, n.n0_y, n.n0_z) +
                     hit.u * Vec(n.n1_x, n.n1_y, n.n1_z) + hit.v * Vec(n.n2_x, n.n2_y, n.n2_z);
     const double side = glm::dot(sum, point.ng);
     if (side != 0) point.ns = glm::normalize(sum) * (side < 0 ? -1.0 : 1.0);
+  }
+  return point;
+}
+
+/// An instance's map, and the triangles of its object where it puts them.
+struct PlacedObject {
+  InstanceRow<Value> row;
+  glm::dmat3 linear;
+  uint32_t first, end;  ///< rows of Instances::triangles
+
+  PlacedObject(const Scene& scene, uint32_t instance)
+      : row(scene.instances.rows.row(instance)),
+        linear(Vec(row.w_xx, row.w_yx, row.w_zx), Vec(row.w_xy, row.w_yy, row.w_zy),
+               Vec(row.w_xz, row.w_yz, row.w_zz)),
+        first(row.first_triangle),
+        end(first + scene.instances.objects[row.object].triangles) {}
+
+  Triangle triangle(const TriangleRow<Value>& object) const {
+    Triangle t(object);
+    t.p0 = linear * t.p0 + Vec(row.org_x, row.org_y, row.org_z);
+    t.e1 = linear * t.e1;
+    t.e2 = linear * t.e2;
+    return t;
+  }
+  InstanceShapeRow<Value> shape(const Scene& scene, uint32_t triangle) const {
+    return scene.instances.shapes.row(row.first_shape +
+                                      scene.instances.triangles.row(triangle).parameter);
+  }
+};
+
+Point instance_point(const Scene& scene, const PlacedObject& placed, uint32_t triangle,
+                     const TriangleHit& hit) {
+  const TriangleRow<Value> row = scene.instances.triangles.row(triangle);
+  const InstanceShapeRow<Value> shape = placed.shape(scene, triangle);
+  const Triangle world = placed.triangle(row);
+  Point point{};
+  point.t = hit.t;
+  point.position = world.p0 + hit.u * world.e1 + hit.v * world.e2;
+  // What is outside before a mirror is outside after it; the cross product turns round.
+  const double side = glm::determinant(placed.linear) < 0 ? -1 : 1;
+  point.ng = point.ns = side * glm::normalize(glm::cross(world.e1, world.e2));
+  point.offset = kRounding * double(placed.row.extent);
+  point.bin = shape.bin;
+  point.parameter = shape.parameter;
+  point.light = row.light == kNone ? kNone : shape.light + row.light;
+  if (scene.bins[shape.bin].geometry == GeometryKind::kTriangleVertex) {
+    const TriangleVertexRow<Value> n = scene.instances.triangle_vertices.row(triangle);
+    const Vec sum = (1 - hit.u - hit.v) * Vec(n.n0_x, n.n0_y, n.n0_z) +
+                    hit.u * Vec(n.n1_x, n.n1_y, n.n1_z) + hit.v * Vec(n.n2_x, n.n2_y, n.n2_z);
+    const Vec ns = glm::normalize(glm::inverse(glm::transpose(placed.linear)) * sum);
+    const double cosine = glm::dot(ns, point.ng);
+    if (glm::dot(sum, sum) > 0) point.ns = cosine < 0 ? glm::normalize(ns - cosine * point.ng) : ns;
   }
   return point;
 }
@@ -122,7 +175,7 @@ std::optional<Point> nearest(const Scene& scene, const RaySegment& ray) {
     if (!(t <= t_max)) continue;
     t_max = t;
     best = sphere_point(row, ray, t);
-    best->prim = prim;
+    best->bin = scene.prim_bin[prim];
   }
   for (uint32_t i = 0; i < scene.planes.size(); ++i, ++prim) {
     const PlaneRow<Value> row = scene.planes.row(i);
@@ -130,7 +183,17 @@ std::optional<Point> nearest(const Scene& scene, const RaySegment& ray) {
     if (!(t > 0 && t <= t_max)) continue;
     t_max = t;
     best = plane_point(row, ray, t);
-    best->prim = prim;
+    best->bin = scene.prim_bin[prim];
+  }
+  for (uint32_t i = 0; i < scene.instances.rows.size(); ++i) {
+    const PlacedObject placed(scene, i);
+    for (uint32_t t = placed.first; t < placed.end; ++t) {
+      const auto hit =
+          meet(placed.triangle(scene.instances.triangles.row(t)), ray.origin, ray.direction);
+      if (!hit || !(hit->t > 0 && hit->t <= t_max)) continue;
+      t_max = hit->t;
+      best = instance_point(scene, placed, t, *hit);
+    }
   }
   return best;
 }
@@ -138,9 +201,10 @@ std::optional<Point> nearest(const Scene& scene, const RaySegment& ray) {
 bool occluded(const Scene& scene, const Vec& from, const Vec& to) {
   const Vec way = to - from;
   const auto between = [](double t) { return t > 0 && t < 1; };
-  const auto stops = [&](uint32_t prim) {
-    return !material_traits(scene.bins[scene.prim_bin[prim]].material).see_through;
+  const auto bin_stops = [&](uint32_t bin) {
+    return !material_traits(scene.bins[bin].material).see_through;
   };
+  const auto stops = [&](uint32_t prim) { return bin_stops(scene.prim_bin[prim]); };
   for (uint32_t i = 0; i < scene.triangles.size(); ++i) {
     const auto hit = meet(Triangle(scene.triangles.row(i)), from, way);
     if (hit && between(hit->t) && stops(i)) return true;
@@ -150,6 +214,13 @@ bool occluded(const Scene& scene, const Vec& from, const Vec& to) {
     if (between(meet(scene.spheres.row(i), from, way)) && stops(prim)) return true;
   for (uint32_t i = 0; i < scene.planes.size(); ++i, ++prim)
     if (between(meet(scene.planes.row(i), from, way)) && stops(prim)) return true;
+  for (uint32_t i = 0; i < scene.instances.rows.size(); ++i) {
+    const PlacedObject placed(scene, i);
+    for (uint32_t t = placed.first; t < placed.end; ++t) {
+      const auto hit = meet(placed.triangle(scene.instances.triangles.row(t)), from, way);
+      if (hit && between(hit->t) && bin_stops(placed.shape(scene, t).bin)) return true;
+    }
+  }
   return false;
 }
 

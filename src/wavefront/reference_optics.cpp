@@ -120,7 +120,9 @@ void pick_triangle(const LightRow<Value>& row, const Vec& receiver, double u, do
   pick.wi = glm::normalize(way);
   const double cos = -glm::dot(normal, pick.wi);
   // Off the light, so that it does not shadow itself.
-  pick.to = point + normal * (1e-12 * (glm::length(point) + glm::length(e1) + glm::length(e2)));
+  // An instance's triangle lies where its map puts it, which the row's floats round.
+  pick.to = point + normal * (1e-12 * (glm::length(point) + glm::length(e1) + glm::length(e2)) +
+                              double(row.further));
   if (cos > 0 && squared > 0) {
     inverse_pdf = double(row.extra) * cos / squared;
     pick.pdf = 1 / inverse_pdf;

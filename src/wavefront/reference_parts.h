@@ -26,7 +26,7 @@ struct Point {
   Vec position;
   Vec ng, ns;     ///< unit; the shape's outside
   double offset;  ///< what a ray that leaves must keep off: rounding of this arithmetic
-  uint32_t prim;  ///< primitive row
+  uint32_t bin;   ///< row of Scene::bins
   uint32_t parameter, light;
 };
 

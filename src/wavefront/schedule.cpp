@@ -101,14 +101,25 @@ void Worker::intersect() {
   if (plan_.planes)
     kernels_.intersect_planes(view_.geometry.planes, first_sphere + view_.geometry.spheres.count,
                               rays, hits, count_);
+  if (plan_.instances) {
+    const LaneCount inside = kernels_.intersect_instances(
+        view_.instances, rays, hits, batch_.instance.data(), count_, batch_.scratch);
+    lanes.rows += inside.rows;
+    lanes.steps += inside.steps;
+  }
   count(Stage::kIntersect, count_, lanes);
 }
 
 void Worker::sort() {
   clock_.enter(Stage::kSort, count_);
-  kernels_.classify_hits(view_.geometry.prim_bin, plan_.emissive_bins, plan_.transport.max_depth,
-                         batch_.hits.view(), batch_.paths[current_].columns().depth,
-                         batch_.bin.data(), count_);
+  const uint32_t* depth = batch_.paths[current_].columns().depth;
+  if (plan_.instances)
+    kernels_.classify_instance_hits(view_.instances, view_.geometry.prim_bin, plan_.emissive_bins,
+                                    plan_.transport.max_depth, batch_.hits.view(),
+                                    batch_.instance.data(), depth, batch_.bin.data(), count_);
+  else
+    kernels_.classify_hits(view_.geometry.prim_bin, plan_.emissive_bins, plan_.transport.max_depth,
+                           batch_.hits.view(), depth, batch_.bin.data(), count_);
   // Counting sort. Two histograms: neighbouring rows are often of one bin, and an increment that
   // waits for the store before it takes several cycles.
   uint32_t even[kMaxBins] = {}, odd[kMaxBins] = {};
@@ -151,9 +162,15 @@ void Worker::shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end) {
   const Randoms<Column>& randoms = batch_.randoms.columns();
 
   clock_.enter(Stage::kSurface, n);
-  kernels_.make_surfaces[uint32_t(bin.bin.geometry)](
-      view_, batch_.order.data() + begin, batch_.rays[current_].view(), batch_.hits.view(),
-      batch_.paths[current_].view(), batch_.surfaces.columns(), batch_.chunk_paths.columns(), n);
+  if (bin.bin.instanced)
+    kernels_.make_instance_surfaces[bin.bin.geometry == GeometryKind::kTriangleVertex](
+        view_, batch_.order.data() + begin, batch_.rays[current_].view(), batch_.hits.view(),
+        batch_.instance.data(), batch_.paths[current_].view(), batch_.surfaces.columns(),
+        batch_.chunk_paths.columns(), n);
+  else
+    kernels_.make_surfaces[uint32_t(bin.bin.geometry)](
+        view_, batch_.order.data() + begin, batch_.rays[current_].view(), batch_.hits.view(),
+        batch_.paths[current_].view(), batch_.surfaces.columns(), batch_.chunk_paths.columns(), n);
   count(Stage::kSurface, n);
 
   if (bin.emission) {
@@ -213,6 +230,12 @@ void Worker::shadow() {
     std::fill_n(occluded, n, 0u);
   if (plan_.spheres) kernels_.shadow_spheres(view_.geometry.spheres, rays, occluded, n);
   if (plan_.planes) kernels_.shadow_planes(view_.geometry.planes, rays, occluded, n);
+  if (plan_.instances) {
+    const LaneCount inside = kernels_.shadow_instances[plan_.instance_mask](
+        view_.instances, rays, occluded, n, batch_.scratch);
+    lanes.rows += inside.rows;
+    lanes.steps += inside.steps;
+  }
   count(Stage::kIntersectShadow, n, lanes);
 }
 

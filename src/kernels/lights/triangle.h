@@ -27,7 +27,7 @@ struct TriangleLight {
     // The corners' coordinates are at most these sums.
     const Float<A> extent =
         largest_magnitude(p0) + xsimd::max(largest_magnitude(e1), largest_magnitude(e2));
-    pick.to = point + surface_offset(extent, normal) * normal;
+    pick.to = point + (surface_offset(extent, normal) + row.further) * normal;
     return pick;
   }
 

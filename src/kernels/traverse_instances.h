@@ -1,0 +1,314 @@
+#pragma once
+// Rays against instances: a stream goes through the top tree as through any other, and where it
+// reaches an instance, the rays of the list are taken to object space and go through the object's
+// tree as a stream of their own. Directions are not normalised, so that distances are shared.
+//
+// A ray starts anew where it enters the instance's sphere, in scene space, before it is mapped
+// relative to the instance's origin: what it meets is then known to roundings of the instance's
+// size and of its place, however far away the ray began.
+//
+// Row independence (invariant 1): what is done to a ray at an instance follows from the ray, its
+// nearest hit so far and the instance; the order of instances from the ray's octant. Of equal
+// distances the scene's own primitives win, then the lower instance, then the lower row.
+
+#include "kernels/math.h"
+#include "kernels/traverse.h"
+#include "kernels/vec.h"
+
+namespace yat::YAT_ISA {
+
+template <class A>
+using InstanceRowW = InstanceRow<Lanes<A>::template Of>;
+
+// Records of the top tree's rays (kernels/traverse_rays.h) hold the ray as it came in the place of
+// the triangle test's numbers: words 8..15 are t, origin, direction, prim.
+inline constexpr uint32_t kRecordRay = 8;
+
+/// Bytes of scratch memory for instances.
+struct InstanceScratch {
+  size_t columns;  ///< a column of the stream
+  size_t top;      ///< the top tree's own
+  size_t total;
+  YAT_INLINE InstanceScratch(const InstancesView& instances, uint32_t max_rays) {
+    TreeView deepest;
+    deepest.max_depth = instances.tree_depth;
+    const ScratchPlan plan(instances.top, max_rays), object(deepest, max_rays);
+    columns = list_words(plan.rays) * 4;
+    // The caller's: t_max, moved, instance. A leaf's: a ray (7) and its start, then the object's.
+    top = plan.total;
+    total = 3 * columns + top + 8 * columns + object.total + 1024;
+  }
+};
+
+template <class A>
+size_t instance_scratch_bytes(const InstancesView& instances, uint32_t max_rays) noexcept {
+  return InstanceScratch(instances, max_rays).total;
+}
+
+/// Leaves of the top tree: an instance each.
+template <class A, Query Q>
+struct InstanceLeaves {
+  static constexpr uint32_t W = kLanes<A>;
+  const InstancesView& instances;
+  float* records;
+  const float* moved;     ///< per slot: distance from the ray's origin to its record's
+  uint32_t* instance_of;  ///< per slot: of the nearest hit so far, or kNone
+
+  YAT_INLINE void prefetch(uint32_t instance) const {
+    __builtin_prefetch(instances.rows.words + size_t(instance) * row_words<InstanceRow>);
+  }
+
+  /// Takes rays to object space. to: their columns; start: by how much further on they begin than
+  /// their records do.
+  YAT_INLINE void enter(const InstanceRowW<A>& row, const uint32_t* slots, uint32_t n,
+                        const Ray<Column>& to, float* start) const {
+    const Vec3<A> center{row.org_x, row.org_y, row.org_z};
+    const Float<A> zero(0.f), one(1.f);
+    for (uint32_t i = 0; i < n; i += W) {
+      Float<A> ray[8];
+      load_rows8<A>(records + kRecordRay, slots + i, kRecordWords, ray);
+      const Vec3<A> org{ray[1], ray[2], ray[3]}, dir{ray[4], ray[5], ray[6]};
+      // Up to the point nearest to the centre, and back to the sphere: the first by a distance with
+      // a rounding error of the way, the second from where that led. 64 roundings of the way keep
+      // the start outside.
+      const Float<A> inverse = one / dot(dir, dir);
+      const Float<A> way = dot(center - org, dir) * inverse;
+      const Vec3<A> nearest{xsimd::fma(way, dir.x, org.x) - center.x,
+                            xsimd::fma(way, dir.y, org.y) - center.y,
+                            xsimd::fma(way, dir.z, org.z) - center.z};
+      const Float<A> within =
+          xsimd::max(row.radius * row.radius - dot(nearest, nearest), zero) * inverse;
+      const Float<A> begin = way * Float<A>(1.f - 64 * kRounding) - xsimd::sqrt(within);
+      // A NaN (a direction whose square is no float) stays where it is.
+      const Mask<A> ahead = begin > zero;
+      const Float<A> skip = only<A>(ahead, begin);
+      const Vec3<A> from = select(ahead,
+                                  {xsimd::fma(skip, dir.x, org.x), xsimd::fma(skip, dir.y, org.y),
+                                   xsimd::fma(skip, dir.z, org.z)},
+                                  org) -
+                           center;
+      const auto map = [&row](const Vec3<A>& v) {
+        return Vec3<A>{row.o_xx * v.x + row.o_xy * v.y + row.o_xz * v.z,
+                       row.o_yx * v.x + row.o_yy * v.y + row.o_yz * v.z,
+                       row.o_zx * v.x + row.o_zy * v.y + row.o_zz * v.z};
+      };
+      const Vec3<A> object_org = map(from), object_dir = map(dir);
+      const Float<A> further = skip - gather<A>(moved, load<A>(slots, i));
+      store<A>(object_org.x, to.org_x, i);
+      store<A>(object_org.y, to.org_y, i);
+      store<A>(object_org.z, to.org_z, i);
+      store<A>(object_dir.x, to.dir_x, i);
+      store<A>(object_dir.y, to.dir_y, i);
+      store<A>(object_dir.z, to.dir_z, i);
+      store<A>(ray[0] - further, to.t_max, i);
+      store<A>(further, start, i);
+    }
+  }
+
+  /// Hits nearer than those so far, back into the records.
+  YAT_INLINE void leave(uint32_t instance, uint32_t first_triangle, const RayStream& stream,
+                        const uint32_t* slots, uint32_t n, const float* start) const {
+    for (uint32_t i = 0; i < n; i += W) {
+      Float<A> found[8];
+      load_rows8<A>(stream.records + kRecordTriangle, stream.slot_of_row + i, kRecordWords, found);
+      const UInt<A> prim = as_uint<A>(found[kRecordPrim - kRecordTriangle]);
+      const Float<A> left = found[kRecordT - kRecordTriangle];
+      Mask<A> hit = tail_mask<A>(i, n);
+      if constexpr (Q == Query::kClosest) {
+        hit = hit & mask_of<A>(prim != UInt<A>(kNone));
+      } else {
+        hit = hit & (left < Float<A>(0.f));
+      }
+      uint32_t bits = mask_bits<A>(hit);
+      if (!bits) continue;
+      if constexpr (Q != Query::kClosest) {
+        for (; bits; bits &= bits - 1)
+          records[size_t(slots[i + uint32_t(__builtin_ctz(bits))]) * kRecordWords + kRecordT] =
+              -1.f;
+        continue;
+      }
+      Float<A> shift = load<A>(start, i);
+      if (stream.any_shift) shift = shift + load<A>(stream.shift, i);
+      alignas(64) float t[W];
+      alignas(64) uint32_t prims[W];
+      (left + shift).store_aligned(t);
+      prim.store_aligned(prims);
+      for (; bits; bits &= bits - 1) {
+        const auto lane = uint32_t(__builtin_ctz(bits));
+        const uint32_t slot = slots[i + lane];
+        float* const record = records + size_t(slot) * kRecordWords;
+        const bool nearer = t[lane] < record[kRecordT];
+        const bool tie = t[lane] == record[kRecordT] && instance_of[slot] != kNone &&
+                         instance < instance_of[slot];
+        if (!nearer && !tie) continue;
+        const float* const from =
+            stream.records + size_t(stream.slot_of_row[i + lane]) * kRecordWords;
+        const uint32_t row = first_triangle + prims[lane];
+        record[kRecordT] = t[lane];
+        record[kRecordU] = from[kRecordU];
+        record[kRecordV] = from[kRecordV];
+        __builtin_memcpy(record + kRecordPrim, &row, 4);
+        instance_of[slot] = instance;
+      }
+    }
+  }
+
+  /// The rays of a list against one instance. arena: free scratch.
+  void visit(uint32_t instance, uint32_t* slots, uint32_t n, std::byte* arena,
+             LaneCount& count) const noexcept {
+    const InstanceRowW<A> row = broadcast<A>(instances.rows, instance);
+    const uint32_t* const words = instances.rows.words + size_t(instance) * row_words<InstanceRow>;
+    const uint32_t object = words[kObjectWord], first_triangle = words[kFirstTriangleWord];
+    UInt<A>(slots[0]).store_unaligned(slots + n);  // Padding that is safe to load.
+    const size_t bytes = list_words(n) * 4;
+    const auto column = [&] {
+      auto* const p = reinterpret_cast<float*>(arena);
+      arena += bytes;
+      return p;
+    };
+    Ray<Column> rays;
+    for_each_field([&](auto, auto& field) { field = column(); }, rays);
+    float* const start = column();
+    enter(row, slots, n, rays, start);
+    count.rows += n;
+    count.steps += (n + W - 1) / W;
+    RayStream stream;
+    const LaneCount below = trace_stream<A, Q>(instances.trees[object], as_const_columns<Ray>(rays),
+                                               n, {arena, 0}, stream);
+    count.rows += below.rows;
+    count.steps += below.steps;
+    leave(instance, first_triangle, stream, slots, n, start);
+  }
+};
+
+/// Traces rows [0, n), n <= kStreamRays, and leaves the answers in the records. free: scratch of
+/// InstanceScratch::total bytes. instance_of: per slot.
+template <class A, Query Q>
+YAT_INLINE LaneCount trace_instances(const InstancesView& instances, const Ray<ConstColumn>& rays,
+                                     uint32_t n, std::byte* free, RayStream& stream,
+                                     uint32_t*& instance_of) noexcept {
+  constexpr uint32_t W = kLanes<A>;
+  const TreeView& tree = instances.top;
+  const ScratchPlan plan(tree, n);
+  const auto take = [&free](size_t bytes) {
+    std::byte* p = free;
+    free += (bytes + 63) / 64 * 64;
+    return p;
+  };
+  stream.records = reinterpret_cast<float*>(take(plan.records));
+  stream.slot_of_row = reinterpret_cast<uint32_t*>(take(plan.words));
+  stream.shift = reinterpret_cast<float*>(take(plan.words));
+  stream.class_of_row = reinterpret_cast<uint32_t*>(take(plan.words));
+  auto* const slots = reinterpret_cast<uint32_t*>(take(plan.words));
+  auto* const moved = reinterpret_cast<float*>(take(plan.words));
+  instance_of = reinterpret_cast<uint32_t*>(take(plan.words));
+  sort_rays<A, Q>(tree, extent_of(tree), rays, n, stream);
+  write_records<A, Q>(rays, n, stream);
+  const uint32_t left_out = stream.first_slot[kClasses];
+  for (uint32_t row = 0; row < n; row += W) {
+    const RawRays<A> r = load_raw<A, Q>(rays, row);
+    const uint32_t* const slot = stream.slot_of_row + row;
+    Float<A> shift(0.f);
+    if (stream.any_shift) shift = load<A>(stream.shift, row);
+    store_rows4<A>(r.t_max - shift, r.org[0], r.org[1], r.org[2], stream.records + kRecordRay, slot,
+                   kRecordWords);
+    store_rows4<A>(r.dir[0], r.dir[1], r.dir[2], as_float<A>(UInt<A>(kNone)),
+                   stream.records + kRecordRay + 4, slot, kRecordWords);
+    alignas(64) float shifts[W];
+    shift.store_aligned(shifts);
+    for (uint32_t i = 0; i < W; ++i) moved[slot[i]] = shifts[i];
+  }
+  stream.records[size_t(left_out) * kRecordWords + kRecordT] = 0.f;  // Not occluded.
+  for (uint32_t i = 0; i <= left_out; i += W) UInt<A>(kNone).store_unaligned(instance_of + i);
+
+  InstanceLeaves<A, Q> leaves{instances, stream.records, moved, instance_of};
+  LaneCount count;
+  for (uint32_t octant = 0; octant < (Q == Query::kClosest ? 8 : 1); ++octant) {
+    const uint32_t* const first = stream.first_slot + 3 * octant;
+    const uint32_t m = first[3] - first[0];
+    if (m == 0) continue;
+    for (uint32_t i = 0; i < m; i += W)
+      (lane_index<A>() + UInt<A>(first[0] + i)).store_unaligned(slots + i);
+    UInt<A>(first[0]).store_unaligned(slots + m);
+    Traversal<A, Q, InstanceLeaves<A, Q>> pass{tree, stream.records, first[1], first[2], octant,
+                                               {},   &leaves};
+    pass.visit(0, slots, m, free);
+    count.rows += pass.count.rows;
+    count.steps += pass.count.steps;
+  }
+  return count;
+}
+
+/// See KernelTable.
+template <class A>
+LaneCount intersect_instances(const InstancesView& instances, const Ray<ConstColumn>& rays,
+                              const Hit<Column>& hits, uint32_t* instance, uint32_t n,
+                              const Scratch& scratch) noexcept {
+  LaneCount count;
+  for (uint32_t begin = 0; begin < n; begin += kStreamRays) {
+    const uint32_t m = n - begin < kStreamRays ? n - begin : kStreamRays;
+    const Hit<Column> out = columns_from(hits, begin);
+    Ray<ConstColumn> in = columns_from(rays, begin);
+    in.t_max = out.t;
+    RayStream stream;
+    uint32_t* instance_of;
+    const LaneCount c =
+        trace_instances<A, Query::kClosest>(instances, in, m, scratch.memory, stream, instance_of);
+    count.rows += c.rows;
+    count.steps += c.steps;
+    for (uint32_t i = 0; i < m; i += kLanes<A>) {
+      Float<A> head[8], tail[8];
+      load_rows8<A>(stream.records, stream.slot_of_row + i, kRecordWords, head);
+      load_rows8<A>(stream.records + kRecordRay, stream.slot_of_row + i, kRecordWords, tail);
+      const UInt<A> prim = as_uint<A>(tail[kRecordPrim - kRecordRay]);
+      const Mask<A> hit = mask_of<A>(prim != UInt<A>(kNone));
+      store<A>(gather<A>(static_cast<const uint32_t*>(instance_of), load<A>(stream.slot_of_row, i)),
+               instance + begin, i);
+      if (!any<A>(hit)) continue;
+      Float<A> t = tail[kRecordT - kRecordRay];
+      if (stream.any_shift) t = t + load<A>(stream.shift, i);
+      store<A>(select<A>(hit, t, load<A>(out.t, i)), out.t, i);
+      store<A>(select<A>(hit, head[kRecordU], load<A>(out.u, i)), out.u, i);
+      store<A>(select<A>(hit, head[kRecordV], load<A>(out.v, i)), out.v, i);
+      store<A>(select<A>(hit, prim, load<A>(out.prim, i)), out.prim, i);
+    }
+  }
+  return count;
+}
+
+/// See KernelTable. Q says whether block_occluders are looked at.
+template <class A, Query Q>
+LaneCount shadow_instances(const InstancesView& instances, const ShadowRay<ConstColumn>& rays,
+                           uint32_t* occluded, uint32_t n, const Scratch& scratch) noexcept {
+  LaneCount count;
+  for (uint32_t begin = 0; begin < n; begin += kStreamRays) {
+    const uint32_t m = n - begin < kStreamRays ? n - begin : kStreamRays;
+    const ShadowRay<ConstColumn> from = columns_from(rays, begin);
+    uint32_t* const out = occluded + begin;
+    // Rays that something stopped already have no way left.
+    auto* const t_max = reinterpret_cast<float*>(scratch.memory);
+    for (uint32_t i = 0; i < m; i += kLanes<A>)
+      store<A>(select<A>(mask_of<A>(load<A>(out, i) == UInt<A>(0u)), Float<A>(1.f), Float<A>(0.f)),
+               t_max, i);
+    const Ray<ConstColumn> in{from.org_x, from.org_y, from.org_z, from.dir_x,
+                              from.dir_y, from.dir_z, t_max};
+    RayStream stream;
+    uint32_t* instance_of;
+    const LaneCount c = trace_instances<A, Q>(
+        instances, in, m, scratch.memory + InstanceScratch(instances, m).columns, stream,
+        instance_of);
+    count.rows += c.rows;
+    count.steps += c.steps;
+    for (uint32_t i = 0; i < m; i += kLanes<A>) {
+      const UInt<A> slot = load<A>(stream.slot_of_row, i);
+      const Float<A> t = gather<A>(static_cast<const float*>(stream.records) + kRecordT,
+                                   slot * UInt<A>(kRecordWords));
+      const Mask<A> stopped = t < Float<A>(0.f);
+      store<A>(select<A>(stopped, UInt<A>(1u), load<A>(static_cast<const uint32_t*>(out), i)), out,
+               i);
+    }
+  }
+  return count;
+}
+
+}  // namespace yat::YAT_ISA

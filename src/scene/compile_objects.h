@@ -1,0 +1,144 @@
+#pragma once
+// From shape statements to places: shapes once in the world, copies of objects, and objects that
+// are stored once with their instances.
+//
+//   ShapePlacer ─> PlacedShape ──────────────────> GeometryRows ─> Scene's tables
+//               └> SharedShapes ─> ObjectCompiler ─> Scene::instances
+
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "scene/compile_parts.h"
+#include "scene/tree_top.h"
+
+namespace yat {
+
+/// Objects to store once, and where they are.
+struct SharedShapes {
+  struct Object {
+    uint32_t row = kNone;             ///< of Description::objects
+    std::vector<PlacedShape> meshes;  ///< in object space, by their own transforms
+  };
+  struct Instance {
+    uint32_t object = kNone;  ///< row of `objects`
+    /// Row of `materials`: one material per mesh.
+    uint32_t materials = kNone;
+    Placement placement;
+    SourceLoc loc;
+  };
+  std::vector<Object> objects;
+  std::vector<Instance> instances;
+  std::vector<std::vector<MaterialRef>> materials;
+};
+
+/// Reads every shape that is seen, once, and decides what is copied and what is shared.
+class ShapePlacer {
+ public:
+  ShapePlacer(const Description& description, const ColourModel& colour, InstanceMode mode,
+              Diagnostics& diagnostics);
+  void place_all();
+  const std::vector<PlacedShape>& placed() const { return placed_; }
+  /// Points into this object.
+  const SharedShapes& shared() const { return shared_; }
+  MaterialCompiler& materials() { return materials_; }
+  uint32_t shapes_read() const { return shapes_read_; }
+
+ private:
+  /// A shape's own part, shared by all places it is put at.
+  struct ShapeInfo {
+    bool read = false;
+    std::optional<CompiledShape> shape;
+    glm::dvec3 radiance{0.0};  ///< bands, of its area light, by the area before instancing
+    bool emissive() const { return radiance.x > 0 || radiance.y > 0 || radiance.z > 0; }
+  };
+  /// What a mesh is to rays: instances that differ in this cannot share a tree.
+  enum class Presence : uint8_t { kAbsent, kSeeThrough, kSolid };
+
+  const ShapeInfo& info(uint32_t index);
+  glm::dvec3 radiance(const ShapeEntry& entry, const CompiledShape& shape);
+  void place(uint32_t index, const Matrix& to_world, uint32_t material, SourceLoc loc);
+  void copy(const InstanceEntry& instance, uint32_t index);
+  void note_mirrored_light(const PlacedShape& placed, bool mirrored, SourceLoc loc);
+  Presence presence(const ShapeInfo& info, const MaterialRef& material) const;
+  /// The object's row in shared_, if its instances are to share it.
+  std::optional<uint32_t> share(uint32_t object, uint64_t instances, const InstanceEntry& first);
+  bool place_shared(uint32_t shared, const InstanceEntry& instance);
+  bool is_mesh(uint32_t index) {
+    return info(index).shape && info(index).shape->kind == CompiledShape::Kind::kMesh;
+  }
+
+  const Description& description_;
+  const ColourModel& colour_;
+  InstanceMode mode_;
+  Diagnostics& diagnostics_;
+  MaterialCompiler materials_;
+  std::vector<ShapeInfo> shapes_;  // never resized: PlacedShape points into it
+  std::vector<std::optional<std::optional<AreaLight>>> area_lights_;  // outer: read yet?
+  std::vector<std::vector<uint32_t>> members_;                        // shapes of each object
+  std::vector<PlacedShape> placed_;
+  SharedShapes shared_;
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> material_rows_;  // (shared, override) -> row
+  uint64_t copied_ = 0;
+  uint32_t shapes_read_ = 0;
+};
+
+/// Turns shared objects into rows and trees.
+class ObjectCompiler {
+ public:
+  ObjectCompiler(const SharedShapes& shapes, const Description& description,
+                 Diagnostics& diagnostics)
+      : shapes_(shapes), description_(description), diagnostics_(diagnostics) {}
+  /// Triangles and trees of the objects, each in a space about its own middle.
+  void build(const TreeOptions& options, ThreadPool& pool, Scene& scene);
+  void add_to_bounds(Bounds& bounds) const;
+  void add_keys(BinKeys& keys) const;
+  /// Rows of the instances, the lights that they are, and the top tree, once scene.center and the
+  /// bins are known.
+  void finish(const BinKeys& keys, Scene& scene, std::vector<LightRow<Value>>& lights);
+
+ private:
+  /// One shape of an object: which of the object's triangles, and what kind.
+  struct Run {
+    uint32_t first, end;  ///< triangles of the object
+    GeometryKind geometry;
+    bool emissive;
+    uint32_t mesh;  ///< number among the object's meshes
+  };
+  struct Object {
+    std::vector<Run> runs;
+    uint32_t first_triangle = 0;
+    glm::dvec3 center{0.0};     ///< of object space in the coordinates of the object's shapes
+    std::vector<TopBox> boxes;  ///< about all triangles, object space; empty: nothing to see
+    glm::dvec3 half{0.0};       ///< largest |coordinate| along each axis
+    bool emissive = false;
+  };
+  /// An instance's map as kernels have it.
+  struct Map {
+    glm::dmat3 to_scene{1.0}, to_object{1.0};  ///< rounded to float, the inverse after it
+    glm::dvec3 origin{0.0};                    ///< scene space, rounded to float
+    /// What rounding both ways makes of one unit in each direction of scene space.
+    glm::dvec3 growth{1.0};
+  };
+  static Map map_of(const Placement& placement, const glm::dvec3& object_center,
+                    const glm::dvec3& scene_center);
+  static TopBox placed_bounds(const Object& object, const Map& map);
+  static InstanceRow<Value> row_of(const Object& object, const Map& map);
+  uint32_t key(const Run& run, const MaterialRef& material) const;
+  /// Appends a row per shape; lights are not known yet. Returns the first.
+  uint32_t add_shapes(const SharedShapes::Instance& instance, const BinKeys& keys,
+                      std::vector<InstanceShapeRow<Value>>& shapes) const;
+  /// Appends the instance's lights and writes where they begin into `shapes`, its rows.
+  void add_lights(const SharedShapes::Instance& instance, const InstanceRow<Value>& row,
+                  const Map& map, InstanceShapeRow<Value>* shapes, const Scene& scene,
+                  std::vector<LightRow<Value>>& lights) const;
+
+  const SharedShapes& shapes_;
+  const Description& description_;
+  Diagnostics& diagnostics_;
+  std::vector<Object> objects_;
+};
+
+}  // namespace yat

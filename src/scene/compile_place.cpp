@@ -1,0 +1,216 @@
+// Where shapes go: once into the world, as copies of an object, or into a shared object.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "scene/compile_objects.h"
+
+namespace yat {
+
+namespace {
+
+/// Above this many triangles from instances, say what copies cost.
+constexpr uint64_t kManyCopies = 1'000'000;
+
+/// Whether a map and its inverse keep their precision as floats.
+bool fits_float(const Placement& placement) {
+  for (int i = 0; i < 3; ++i) {
+    const double length = glm::length(placement.linear[i]);
+    const double inverse = glm::length(placement.normal_map[i]);
+    if (!(length > 1e-12 && length < 1e12 && inverse > 1e-12 && inverse < 1e12)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+ShapePlacer::ShapePlacer(const Description& description, const ColourModel& colour,
+                         InstanceMode mode, Diagnostics& diagnostics)
+    : description_(description),
+      colour_(colour),
+      mode_(mode),
+      diagnostics_(diagnostics),
+      materials_(description, colour, diagnostics),
+      shapes_(description.shapes.size()),
+      area_lights_(description.area_lights.size()),
+      members_(description.objects.size()) {}
+
+void ShapePlacer::place_all() {
+  for (uint32_t i = 0; i < description_.shapes.size(); ++i) {
+    const ShapeEntry& entry = description_.shapes[i];
+    if (entry.object == kNone)
+      place(i, entry.to_world, entry.material, entry.plugin.loc);
+    else if (entry.object < members_.size())
+      members_[entry.object].push_back(i);
+  }
+  std::vector<uint64_t> count(members_.size());
+  for (const InstanceEntry& instance : description_.instances)
+    if (instance.object < members_.size()) ++count[instance.object];
+  // Outer: decided yet? Inner: the row of a shared object.
+  std::vector<std::optional<std::optional<uint32_t>>> decided(members_.size());
+  for (const InstanceEntry& instance : description_.instances) {
+    if (instance.object >= members_.size()) continue;  // reported by the parser
+    auto& shared = decided[instance.object];
+    if (!shared) shared.emplace(share(instance.object, count[instance.object], instance));
+    const bool is_shared = *shared && place_shared(**shared, instance);
+    for (const uint32_t i : members_[instance.object])
+      if (!is_shared || !is_mesh(i)) copy(instance, i);
+  }
+  if (copied_ > kManyCopies)
+    diagnostics_.note({}, fmt::format("instances are placed as copies: {} triangles, about {} MB",
+                                      copied_, copied_ * 200 / 1'000'000));
+}
+
+ShapePlacer::Presence ShapePlacer::presence(const ShapeInfo& info,
+                                            const MaterialRef& material) const {
+  if (material.kind != MaterialKind::kNull) return Presence::kSolid;
+  // A null surface that does not shine is not there.
+  return info.emissive() ? Presence::kSeeThrough : Presence::kAbsent;
+}
+
+void ShapePlacer::copy(const InstanceEntry& instance, uint32_t index) {
+  const ShapeEntry& entry = description_.shapes[index];
+  place(index, instance.to_world * entry.to_world,
+        instance.material != kNone ? instance.material : entry.material, instance.loc);
+  if (shapes_[index].shape) copied_ += shapes_[index].shape->mesh.triangles();
+}
+
+void ShapePlacer::note_mirrored_light(const PlacedShape& placed, bool mirrored, SourceLoc loc) {
+  if (placed.emissive() && mirrored && placed.shape->kind == CompiledShape::Kind::kMesh &&
+      placed.shape->mesh.normals.empty())
+    diagnostics_.note(loc,
+                      "a mesh light under a mirrored transform shines to the side that its "
+                      "mesh says, mirrored with it (LuxRender: to the other side)");
+}
+
+std::optional<uint32_t> ShapePlacer::share(uint32_t object, uint64_t instances,
+                                           const InstanceEntry& first) {
+  if (mode_ == InstanceMode::kCopy) return {};
+  uint64_t triangles = 0;
+  for (const uint32_t i : members_[object])
+    if (is_mesh(i)) triangles += shapes_[i].shape->mesh.triangles();
+  const bool pays = triangles >= kSharedTriangles || triangles * instances > kCopiedTriangles;
+  if (mode_ == InstanceMode::kAuto && (instances < 2 || !pays)) return {};
+
+  SharedShapes::Object shared;
+  shared.row = object;
+  Diagnostics silent([](Severity, std::string_view) {});
+  for (const uint32_t i : members_[object]) {
+    if (!is_mesh(i)) continue;
+    const ShapeEntry& entry = description_.shapes[i];
+    PlacedShape placed;
+    placed.shape = &*shapes_[i].shape;
+    placed.loc = entry.plugin.loc;
+    // Copies say what is wrong with a transform, with the instance's place.
+    const auto placement = make_placement(entry.to_world, placed.loc, "", silent);
+    if (!placement) return {};
+    placed.placement = *placement;
+    placed.reverse_orientation = entry.reverse_orientation;
+    placed.material = materials_.compile(first.material != kNone ? first.material : entry.material);
+    placed.radiance = shapes_[i].radiance;
+    shared.meshes.push_back(std::move(placed));
+  }
+  if (shared.meshes.empty()) return {};
+  shared_.objects.push_back(std::move(shared));
+  return uint32_t(shared_.objects.size() - 1);
+}
+
+bool ShapePlacer::place_shared(uint32_t shared, const InstanceEntry& instance) {
+  const SharedShapes::Object& object = shared_.objects[shared];
+  Diagnostics silent([](Severity, std::string_view) {});
+  const auto placement = make_placement(instance.to_world, instance.loc, "", silent);
+  if (!placement || !fits_float(*placement)) return false;
+  const auto [known, is_new] =
+      material_rows_.try_emplace({shared, instance.material}, uint32_t(kNone));
+  if (is_new) {
+    std::vector<MaterialRef> materials;
+    bool same = true;
+    size_t mesh = 0;
+    for (const uint32_t i : members_[object.row]) {
+      if (!is_mesh(i)) continue;
+      materials.push_back(materials_.compile(
+          instance.material != kNone ? instance.material : description_.shapes[i].material));
+      same = same && presence(shapes_[i], materials.back()) ==
+                         presence(shapes_[i], object.meshes[mesh++].material);
+    }
+    if (same) {
+      known->second = uint32_t(shared_.materials.size());
+      shared_.materials.push_back(std::move(materials));
+    }
+  }
+  if (known->second == kNone) return false;
+  // Again, for what it has to say.
+  make_placement(instance.to_world, instance.loc, "the instance", diagnostics_);
+  for (const PlacedShape& mesh : object.meshes)
+    note_mirrored_light(mesh, mesh.placement.mirrored != placement->mirrored, instance.loc);
+  shared_.instances.push_back({shared, known->second, *placement, instance.loc});
+  return true;
+}
+
+void ShapePlacer::place(uint32_t index, const Matrix& to_world, uint32_t material, SourceLoc loc) {
+  const ShapeEntry& entry = description_.shapes[index];
+  const std::string what = "shape \"" + entry.plugin.type + "\"";
+  const ShapeInfo& info = this->info(index);
+  if (!info.shape) return;
+  auto placement = make_placement(to_world, loc, what, diagnostics_);
+  if (!placement) return;
+  PlacedShape placed;
+  placed.shape = &*info.shape;
+  placed.loc = loc;
+  placed.placement = *placement;
+  placed.reverse_orientation = entry.reverse_orientation;
+  placed.material = materials_.compile(material);
+  placed.radiance = info.radiance;
+  if (presence(info, placed.material) == Presence::kAbsent) return;
+  note_mirrored_light(placed, placed.placement.mirrored, loc);
+  placed_.push_back(std::move(placed));
+}
+
+const ShapePlacer::ShapeInfo& ShapePlacer::info(uint32_t index) {
+  ShapeInfo& info = shapes_[index];
+  if (info.read) return info;
+  info.read = true;
+  const ShapeEntry& entry = description_.shapes[index];
+  info.shape = compile_shape(entry, description_, diagnostics_);
+  if (!info.shape) return info;
+  ++shapes_read_;
+  if (entry.area_light < area_lights_.size()) info.radiance = radiance(entry, *info.shape);
+  return info;
+}
+
+/// What the shape emits, in bands; black if it is no light.
+glm::dvec3 ShapePlacer::radiance(const ShapeEntry& entry, const CompiledShape& shape) {
+  const glm::dvec3 black(0.);
+  auto& light = area_lights_[entry.area_light];
+  if (!light)
+    light = std::make_optional(compile_area_light(description_.area_lights[entry.area_light],
+                                                  description_, colour_, diagnostics_));
+  if (!*light) return black;
+  if (shape.kind == CompiledShape::Kind::kPlane) {
+    diagnostics_.warning(entry.plugin.loc,
+                         "an infinite plane cannot be a light: it does not shine");
+    return black;
+  }
+  const auto own = make_placement(entry.to_world, entry.plugin.loc, "the light", diagnostics_);
+  if (!own) return black;
+  const double area = shape.light_area ? *shape.light_area : mesh_area(shape.mesh, *own);
+  if (!(area > 0)) {
+    diagnostics_.warning(entry.plugin.loc, "the area light has no area: it does not shine");
+    return black;
+  }
+  const glm::dvec3 radiance = area_light_radiance(**light, area, diagnostics_);
+  if (!std::isfinite(float(radiance.x)) || !std::isfinite(float(radiance.y)) ||
+      !std::isfinite(float(radiance.z))) {
+    diagnostics_.error((*light)->loc,
+                       "the area light's radiance is too large for a number: it does "
+                       "not shine");
+    return black;
+  }
+  return radiance;
+}
+
+}  // namespace yat
