@@ -53,11 +53,13 @@ void register_all(const Prepared& p) {
           });
 }
 
-Recording record_file(const std::string& file) {
+Recording record_file(const std::string& file, uint32_t resolution) {
   Diagnostics diagnostics([](Severity severity, std::string_view line) {
     if (severity == Severity::kError) std::fprintf(stderr, "%.*s\n", int(line.size()), line.data());
   });
-  return record_scene(file, best_kernels(), {}, diagnostics);
+  RecordOptions options;
+  options.camera_rays = uint64_t(resolution) * resolution;
+  return record_scene(file, best_kernels(), options, diagnostics);
 }
 
 /// Calls f(prepared) for every scene asked for, one after the other.
@@ -68,7 +70,7 @@ void for_each_scene(const Options& options, F&& f) {
   };
   for (const std::string& file : options.files)
     if (file.ends_with(".lxs")) {
-      with(record_file(file));
+      with(record_file(file, options.resolution));
     } else {
       with({mesh_in_room(file), {}});
     }
@@ -111,7 +113,9 @@ void describe(CLI::App& app, Options& options) {
   app.add_option("--open", options.open_meshes,
                  "A PLY file as it is, seen from its middle (repeatable)")
       ->allow_extra_args(false);
-  app.add_option("--resolution", options.resolution, "Camera rays: this, squared")
+  app.add_option(
+         "--resolution", options.resolution,
+         "Camera rays: this, squared; of an .lxs scene about so many, but one per pixel at least")
       ->check(CLI::Range(8, 4096));
   list(app.add_option("--isa", options.traced.isas,
                       "Instruction sets (default: YAT_ISA, else the best here)"));

@@ -234,8 +234,10 @@ Recording record_scene(const std::string& path, const KernelTable& kernels,
                 "that has a mesh");
   const uint64_t pixels = uint64_t(scene.film.crop_width()) * scene.film.crop_height();
   const uint64_t samples =
-      options.samples ? options.samples
-                      : std::max<uint64_t>(1, uint64_t(std::llround(512. * 512. / double(pixels))));
+      options.samples
+          ? options.samples
+          : std::max<uint64_t>(
+                1, uint64_t(std::llround(double(options.camera_rays) / double(pixels))));
   if (pixels * samples > kMaxRays)
     throw Error(
         fmt::format("{}: error: {} camera rays are more than {}; take fewer pixels or "

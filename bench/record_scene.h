@@ -20,6 +20,7 @@ struct RecordOptions {
   uint32_t vertices = 3;  ///< along a path; the last one has no shadow rays
   uint32_t seed = 0;
   RecordMaterials materials = RecordMaterials::kMatte;
+  uint64_t camera_rays = 512 * 512;
 };
 
 /// What a ray file holds: triangles, in the frame of the rays, and the sets.

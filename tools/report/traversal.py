@@ -148,7 +148,7 @@ def report(stem, data, plots):
     lines = [f"## Traversal ({stem})", ""] + origin(data)
     if not data["scenes"]:
         return lines
-    lines += [f"Mrays/s on one thread, medians of {data['repetitions']} rounds in turn"
+    lines += [f"Mrays/s on one thread, medians of up to {data['repetitions']} rounds in turn"
               + ("; in brackets the ratio to Embree's fastest variant of that row."
                  if "embree" in data else "."), ""]
     embree = "embree" in data
