@@ -132,9 +132,9 @@ void expect_same_bytes(const Tree& a, const Tree& b, const char* what) {
 
 // K3. Large enough for sets that are binned in pieces, and for sets that outgrow their room.
 TEST(TreeBuild, SameBytesForAnyThreads) {
-  Mesh mesh = soup(60000, 0.03, 6);
+  Mesh mesh = soup(36000, 0.03, 6);
   Rng rng(9);
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 1500; ++i) {
     const Vec c = random_point(rng);
     mesh.add(c, c + random_point(rng, 0.7), c + random_point(rng, 0.7));
   }
@@ -148,6 +148,15 @@ TEST(TreeBuild, SameBytesForAnyThreads) {
     for (const uint32_t threads : {1u, 2u, 3u, 7u})
       expect_same_bytes(build(mesh, shape, 16, threads, occludes), first, "shape");
   }
+}
+
+// Parted in five pieces at the root, whose parts change places afterwards.
+TEST(TreeBuild, SetsOfManyPieces) {
+  const Mesh mesh = soup(140000, 0.01, 4);
+  const Tree tree = build(mesh, TreeShape::kObjects, 16, 3);
+  EXPECT_EQ(verify_tree(tree, mesh.rows.view()), "");
+  EXPECT_EQ(tree.statistics.references, mesh.list.size());
+  expect_same_bytes(build(mesh, TreeShape::kObjects, 16, 1), tree, "pieces");
 }
 
 /// Long thin triangles across the whole box among small ones: partitions of objects overlap.

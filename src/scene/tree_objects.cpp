@@ -99,24 +99,83 @@ ObjectSplit find_object_split(const Set& set, const LocalPrices& prices) {
   return best;
 }
 
+namespace {
+
+/// References of [first, end) parted by the split: lower ones in front of `middle`.
+struct Piece {
+  size_t first = 0, middle = 0, end = 0;
+  Set left, right;  ///< bounds of centres only
+
+  template <class Lower>
+  void part(Reference* references, Lower&& lower) {
+    size_t i = first, j = end;
+    for (;;) {
+      while (i < j && lower(references[i])) left.add_center(references[i++]);
+      while (i < j && !lower(references[j - 1])) right.add_center(references[--j]);
+      if (i == j) break;
+      std::swap(references[i], references[j - 1]);
+    }
+    middle = i;
+  }
+};
+
+/// Parts a set and returns where the upper side begins. A large one in pieces: each piece by
+/// itself, then what lies on the wrong side of the middle of all changes places. Pieces are of a
+/// fixed size: any number of threads makes the same order.
+size_t part(const Set& set, const ObjectSplit& split, const BinMap& bin, Set& left, Set& right) {
+  Reference* const references = set.storage->references + set.first;
+  const auto lower_side = [&](const Reference& r) {
+    return bin(r.half_center())[split.axis] < split.bin;
+  };
+  if (set.count <= kBinGrain) {
+    Piece all{0, 0, set.count, {}, {}};
+    all.part(references, lower_side);
+    left.half_centers = all.left.half_centers;
+    right.half_centers = all.right.half_centers;
+    return all.middle;
+  }
+  std::vector<Piece> pieces((set.count + kBinGrain - 1) / kBinGrain);
+  parallel_ranges(uint32_t(pieces.size()), 1, [&](uint32_t begin, uint32_t end) {
+    for (size_t k = begin; k != end; ++k) {
+      Piece& piece = pieces[k];
+      piece.first = k * kBinGrain;
+      piece.end = std::min(set.count, piece.first + kBinGrain);
+      piece.part(references, lower_side);
+    }
+  });
+  size_t middle = 0;
+  for (const Piece& piece : pieces) {
+    middle += piece.middle - piece.first;
+    left.half_centers.add(piece.left.half_centers);
+    right.half_centers.add(piece.right.half_centers);
+  }
+  // Lower ones behind the middle, from the last piece on; upper ones before it, from the first on.
+  size_t from = pieces.size();
+  size_t lower = 0, lower_end = 0;  // What is left to move of piece `from`.
+  for (const Piece& piece : pieces) {
+    for (size_t upper = piece.middle; upper < std::min(piece.end, middle); ++upper) {
+      while (lower == lower_end) {
+        --from;
+        lower = std::max(pieces[from].first, middle);
+        lower_end = std::max(pieces[from].middle, lower);
+      }
+      std::swap(references[upper], references[lower++]);
+    }
+  }
+  return middle;
+}
+
+}  // namespace
+
 void split_objects(const Set& set, const ObjectSplit& split, Set& left, Set& right) {
   left = right = Set();
   left.storage = right.storage = set.storage;
   Reference* const begin = set.storage->references + set.first;
-  size_t i = 0, j = set.count;
+  size_t i = 0;
   if (split.cost < HUGE_VALF) {
     left.box = split.left;
     right.box = split.right;
-    const BinMap bin = center_bins(set);
-    const auto lower = [&](const Reference& r) {
-      return bin(r.half_center())[split.axis] < split.bin;
-    };
-    for (;;) {
-      while (i < j && lower(begin[i])) left.add_center(begin[i++]);
-      while (i < j && !lower(begin[j - 1])) right.add_center(begin[--j]);
-      if (i == j) break;
-      std::swap(begin[i], begin[j - 1]);
-    }
+    i = part(set, split, center_bins(set), left, right);
   } else {
     // All centres are equal, or no side has an extent: any halves will do.
     i = set.count / 2;
