@@ -298,8 +298,9 @@ YAT_INLINE LaneCount trace_stream(const TreeView& tree, const Columns& rays, uin
   stream.shift = reinterpret_cast<float*>(take(plan.words));
   stream.class_of_row = reinterpret_cast<uint32_t*>(take(plan.words));
   auto* const slots = reinterpret_cast<uint32_t*>(take(plan.words));
-  sort_rays<A, Q>(tree, extent_of(tree), rays, n, stream);
-  write_records<A, Q>(rays, n, stream);
+  const float extent = extent_of(tree);
+  sort_rays<A, Q>(tree, extent, rays, n, stream);
+  write_records<A, Q>(extent, rays, n, stream);
   LaneCount count;
   for (uint32_t octant = 0; octant < (Q == Query::kClosest ? 8 : 1); ++octant) {
     const uint32_t* const first = stream.first_slot + 3 * octant;

@@ -207,8 +207,10 @@ YAT_INLINE void sort_rays(const TreeView& tree, float extent, const Columns& ray
 
 /// Writes the records of the sorted rays.
 template <class A, Query Q, class Columns>
-YAT_INLINE void write_records(const Columns& rays, uint32_t n, RayStream& stream) noexcept {
+YAT_INLINE void write_records(float extent, const Columns& rays, uint32_t n,
+                              RayStream& stream) noexcept {
   constexpr uint32_t W = kLanes<A>;
+  const float floor = extent > .1f ? extent * 1e-36f : 1e-37f;
   uint32_t next[kClasses];
   for (uint32_t c = 0; c < kClasses; ++c) next[c] = stream.first_slot[c];
   const uint32_t left_out = stream.first_slot[kClasses];
@@ -235,13 +237,14 @@ YAT_INLINE void write_records(const Columns& rays, uint32_t n, RayStream& stream
       slot[i] = cls < kClasses ? next[cls]++ : left_out;
     }
     load<A>(slot, 0).store_unaligned(stream.slot_of_row + row);
+    // A zero component would make 0 x infinity. 1e-18 of the largest moves the ray by nothing that
+    // a float can see; the floor keeps the distances of planes finite.
+    const Float<A> least = xsimd::max(max_magnitude<A>(r.dir) * Float<A>(1e-18f), Float<A>(floor));
     Float<A> inverse[3], offset[3];
     for (int a = 0; a < 3; ++a) {
-      // A zero component would make 0 x infinity; 1e-18 moves the ray by nothing a float can see.
       // The sign is that of `dir < 0`, as in the octant: -0 counts as positive.
-      const Float<A> tiny =
-          select<A>(r.dir[a] < Float<A>(0.f), Float<A>(-1e-18f), Float<A>(1e-18f));
-      const Float<A> d = select<A>(xsimd::abs(r.dir[a]) < Float<A>(1e-18f), tiny, r.dir[a]);
+      const Float<A> tiny = select<A>(r.dir[a] < Float<A>(0.f), -least, least);
+      const Float<A> d = select<A>(xsimd::abs(r.dir[a]) < least, tiny, r.dir[a]);
       inverse[a] = Float<A>(1.f) / d;
       offset[a] = -(r.org[a] * inverse[a]);
     }
