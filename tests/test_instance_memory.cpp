@@ -31,10 +31,8 @@ TEST(InstanceRule, CopiesWhereTheyAreFew) {
   std::string many;
   for (uint32_t i = 0; i < 1000; ++i) many += one;
   // 4 * 10 * 9 = 360 triangles, 4 * 20 * 19 = 1520.
-  for (const auto& [rings, places, shared] : {std::tuple{10u, two, 0u},
-                                              {10u, many, 1000u},
-                                              {20u, one, 0u},
-                                              {20u, two, 2u}}) {
+  for (const auto& [rings, places, shared] :
+       {std::tuple{10u, two, 0u}, {10u, many, 1000u}, {20u, one, 0u}, {20u, two, 2u}}) {
     const Scene scene = compile_instances(two_balls(rings, places), k, InstanceMode::kAuto);
     EXPECT_EQ(scene.instances.rows.size(), shared) << rings;
     EXPECT_EQ(scene.triangles.size() == 0, shared > 0) << rings;

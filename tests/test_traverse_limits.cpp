@@ -229,9 +229,12 @@ TEST_P(TraverseLimits, SpawnedRaysDoNotHitTheirOwnSurface) {
     for (const double away : {0., 1., 1e3}) {
       Rng rng(17);
       uint32_t self_hits = 0;
-      for (uint32_t trial = 0; trial < 40; ++trial) {
+      for (uint32_t trial = 0; trial < 60; ++trial) {
         const Vec c = random_direction(rng) * (away * scale);
-        const Vec e1 = random_direction(rng) * scale, e2 = random_direction(rng) * scale;
+        // A third of the quads each a hundred and ten thousand times as long as high.
+        const double height = trial % 3 == 0 ? 1 : trial % 3 == 1 ? 1e-2 : 1e-4;
+        const Vec e1 = random_direction(rng) * scale,
+                  e2 = random_direction(rng) * (scale * (away > 1 ? 1 : height));
         Mesh mesh;
         mesh.quad(c, c + e1, c + e1 + e2, c + e2);
         mesh.done();

@@ -2,6 +2,7 @@
 // Triangle soups and meshes for the tests of tree and traversal, rays through them, and the
 // brute-force answer in double.
 
+#include <cfloat>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -325,8 +326,38 @@ inline bool float_hit(const TriangleRow<Value>& tri, const Ray<Value>& ray, floa
   const float inverse = 1.f / det;
   u = e1 * inverse;
   v = e2 * inverse;
-  t = ((e0 * inverse * z[0] + u * z[1]) + v * z[2]) * sz;
-  return true;
+  const float along = (e0 * inverse * z[0] + u * z[1]) + v * z[2];
+  t = along * sz;
+  // Too near to be sure: the plane itself must lie ahead.
+  const auto reach = [](const float(&c)[3]) {
+    return std::max(std::abs(c[0]), std::max(std::abs(c[1]), std::abs(c[2])));
+  };
+  const float across = std::max(reach(x), reach(y)), deep = reach(z);
+  const float error = (80 * 0x1p-24f * across) * std::max(across, deep) * deep;
+  if (!(std::abs(along * det) <= error)) return true;
+  float r[3][3];  // Axis, vertex.
+  for (int i = 0; i < 3; ++i) {
+    r[0][i] = p[3 * i + kx] - o[kx];
+    r[1][i] = p[3 * i + ky] - o[ky];
+    r[2][i] = p[3 * i + kz] - o[kz];
+  }
+  const auto normal = [&r](int a, int b) {
+    float value = 0, size = FLT_MAX;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      const float first = (r[a][j] - r[a][i]) * (r[b][k] - r[b][j]),
+                  second = (r[b][j] - r[b][i]) * (r[a][k] - r[a][j]);
+      const float largest = std::max(std::abs(first), std::abs(second));
+      if (!(largest < size)) continue;
+      value = first - second;
+      size = largest;
+    }
+    return value;
+  };
+  const float n[3] = {normal(1, 2), normal(2, 0), normal(0, 1)};
+  const float distance = (n[0] * r[0][0] + n[1] * r[1][0]) + n[2] * r[2][0];
+  const float slope = (n[0] * sx + n[1] * sy) + n[2];
+  return distance == 0 || !(std::signbit(distance) ^ std::signbit(slope) ^ std::signbit(sz));
 }
 
 /// Every triangle, in float; (t, lower row) wins. For rays from within kFarExtents.

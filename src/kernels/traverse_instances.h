@@ -202,8 +202,9 @@ YAT_INLINE LaneCount trace_instances(const InstancesView& instances, const Ray<C
   auto* const slots = reinterpret_cast<uint32_t*>(take(plan.words));
   auto* const moved = reinterpret_cast<float*>(take(plan.words));
   instance_of = reinterpret_cast<uint32_t*>(take(plan.words));
-  sort_rays<A, Q>(tree, extent_of(tree), rays, n, stream);
-  write_records<A, Q>(rays, n, stream);
+  const float extent = extent_of(tree);
+  sort_rays<A, Q>(tree, extent, rays, n, stream);
+  write_records<A, Q>(extent, rays, n, stream);
   const uint32_t left_out = stream.first_slot[kClasses];
   for (uint32_t row = 0; row < n; row += W) {
     const RawRays<A> r = load_raw<A, Q>(rays, row);

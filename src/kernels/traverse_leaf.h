@@ -13,6 +13,10 @@
 
 namespace yat::YAT_ISA {
 
+/// Bound of the error of a hit's distance times the sum of the edge functions, in units of the
+/// vertices' coordinates: see test_triangles.
+inline constexpr float kDistanceError = 80 * 0x1p-24f;
+
 /// What the test of W (ray, triangle) pairs gives. Lanes not in `hit` hold nothing of use.
 template <class A>
 struct TriangleHits {
@@ -32,6 +36,42 @@ struct ShearedVertex {
   }
 };
 
+/// Whether the plane of a triangle is met ahead of the ray's origin, told from its corners relative
+/// to the origin (before the shear): x, y, z with the third axis the ray's main one. The distance
+/// by edge functions says that for all but slender triangles: its error grows with their length
+/// over their height, here only with their length. Of the three products of edges that give the
+/// normal the smallest is taken, per component (with long edges cancellation would leave little of
+/// it). Where the plane goes through the origin, yes.
+template <class A>
+struct TrianglePlane {
+  Float<A> x[3], y[3], z[3];
+
+  YAT_INLINE Mask<A> is_ahead(const Float<A> (&shear)[3]) const {
+    const auto normal = [](const Float<A>(&p)[3], const Float<A>(&q)[3]) {
+      const Float<A> p1 = p[1] - p[0], p2 = p[2] - p[1], p3 = p[0] - p[2];
+      const Float<A> q1 = q[1] - q[0], q2 = q[2] - q[1], q3 = q[0] - q[2];
+      const auto smaller = [](const Float<A>& a, const Float<A>& b, const Float<A>& c,
+                              const Float<A>& d, Float<A>& value, Float<A>& size) {
+        const Float<A> first = a * b, second = c * d;
+        const Float<A> largest = xsimd::max(xsimd::abs(first), xsimd::abs(second));
+        const Mask<A> better = largest < size;
+        value = select<A>(better, first - second, value);
+        size = xsimd::min(size, largest);
+      };
+      Float<A> value(0.f), size(3.402823466e38f);
+      smaller(p1, q2, q1, p2, value, size);
+      smaller(p2, q3, q2, p3, value, size);
+      smaller(p3, q1, q3, p1, value, size);
+      return value;
+    };
+    const Float<A> nx = normal(y, z), ny = normal(z, x), nz = normal(x, y);
+    const Float<A> distance = (nx * x[0] + ny * y[0]) + nz * z[0];
+    const Float<A> slope = (nx * shear[0] + ny * shear[1]) + nz;
+    const UInt<A> behind = as_uint<A>(distance) ^ as_uint<A>(slope) ^ as_uint<A>(shear[2]);
+    return !(negative<A>(behind) & (distance != Float<A>(0.f)));
+  }
+};
+
 /// The test of W pairs. `range(t)` says which distances count. False if surely no lane hits: a
 /// branch there pays, a second one on `hit` is too hard to predict.
 ///
@@ -41,10 +81,13 @@ struct ShearedVertex {
 /// be told from coordinates alone (kernels/traverse_tile.h). Nothing is lost by it: of the
 /// triangles that a ray touches in a closed mesh, one is met by the ray moved by nothing towards
 /// negative x and y, and its vertices have both signs.
-template <class A, class Range>
+///
+/// A hit nearer than its distance can be wrong counts only if the plane lies ahead: rays would meet
+/// the slender triangle that they just left. `corners()` gives the TrianglePlane.
+template <class A, class Range, class Corners>
 YAT_INLINE bool test_triangles(const ShearedVertex<A>& a, const ShearedVertex<A>& b,
-                               const ShearedVertex<A>& c, const Float<A>& shear_z, Range&& range,
-                               TriangleHits<A>& out) {
+                               const ShearedVertex<A>& c, const Float<A> (&shear)[3], Range&& range,
+                               Corners&& corners, TriangleHits<A>& out) {
   const Float<A> zero(0.f);
   const Float<A> e0 = c.x * b.y - c.y * b.x;
   const Float<A> e1 = a.x * c.y - a.y * c.x;
@@ -58,12 +101,23 @@ YAT_INLINE bool test_triangles(const ShearedVertex<A>& a, const ShearedVertex<A>
   const Float<A> w = e0 * inverse;
   out.u = e1 * inverse;
   out.v = e2 * inverse;
-  out.t = ((w * a.z + out.u * b.z) + out.v * c.z) * shear_z;
+  const Float<A> z = (w * a.z + out.u * b.z) + out.v * c.z;
+  out.t = z * shear[2];
   const auto signs_differ = [](const Float<A>& p, const Float<A>& q, const Float<A>& r) {
     return (as_uint<A>(p) ^ as_uint<A>(q)) | (as_uint<A>(q) ^ as_uint<A>(r));
   };
   const UInt<A> around = signs_differ(a.x, b.x, c.x) & signs_differ(a.y, b.y, c.y);
   out.hit = inside & (det != zero) & negative<A>(around) & range(out.t);
+  // A sheared coordinate is off by at most 6 roundings of the larger of itself and z (|shear| <=
+  // 1), an edge function by 26 of two such, the distance by that of three times the vertices' z.
+  const auto reach = [](const Float<A>& p, const Float<A>& q, const Float<A>& r) {
+    return xsimd::max(xsimd::abs(p), xsimd::max(xsimd::abs(q), xsimd::abs(r)));
+  };
+  const Float<A> across = xsimd::max(reach(a.x, b.x, c.x), reach(a.y, b.y, c.y));
+  const Float<A> along = reach(a.z, b.z, c.z);
+  const Float<A> error = (Float<A>(kDistanceError) * across) * xsimd::max(across, along) * along;
+  const Mask<A> doubtful = out.hit & (xsimd::abs(z * det) <= error);
+  if (any<A>(doubtful)) out.hit = out.hit & (corners().is_ahead(shear) | !doubtful);
   return true;
 }
 
@@ -76,6 +130,20 @@ struct BlockAxes {
 
 YAT_INLINE const uint32_t* block_prims(const float* block, uint32_t width) {
   return reinterpret_cast<const uint32_t*>(block + 9 * width);
+}
+
+/// The plane of triangle k of a block for W rays.
+template <class A>
+YAT_INLINE TrianglePlane<A> plane_of(const float* block, uint32_t width, uint32_t k,
+                                     const BlockAxes& axes, const Float<A> (&org)[3]) {
+  TrianglePlane<A> plane;
+  for (uint32_t i = 0; i < 3; ++i) {
+    const float* const p = block + 3 * i * width + k;
+    plane.x[i] = Float<A>(p[axes.x]) - org[0];
+    plane.y[i] = Float<A>(p[axes.y]) - org[1];
+    plane.z[i] = Float<A>(p[axes.z]) - org[2];
+  }
+  return plane;
 }
 
 /// W triangles of a block in registers, for one ray after the other.
@@ -111,9 +179,18 @@ YAT_INLINE void test_block(const BlockTriangles<A>& block, float* record, LaneCo
   const Float<A> t_max(record[kRecordT]);
   TriangleHits<A> h;
   const bool found = test_triangles<A>(
-      vertex(0), vertex(1), vertex(2), shear[2],
+      vertex(0), vertex(1), vertex(2), shear,
       [&](const Float<A>& t) {
         return Q == Query::kClosest ? (t > zero) & (t <= t_max) : (t > zero) & (t < t_max);
+      },
+      [&] {
+        TrianglePlane<A> plane;
+        for (uint32_t k = 0; k < 3; ++k) {
+          plane.x[k] = block.x[k] - org[0];
+          plane.y[k] = block.y[k] - org[1];
+          plane.z[k] = block.z[k] - org[2];
+        }
+        return plane;
       },
       h);
   if (!found) return;
@@ -176,7 +253,7 @@ YAT_INLINE void test_rays(const float* block, uint32_t blocks, uint32_t width,
       const UInt<A> candidate(prims[k]);
       TriangleHits<A> h;
       const bool found = test_triangles<A>(
-          vertex(0), vertex(1), vertex(2), shear[2],
+          vertex(0), vertex(1), vertex(2), shear,
           [&](const Float<A>& distance) {
             const Mask<A> ahead = active & (distance > zero);
             if constexpr (Q == Query::kClosest) {
@@ -185,7 +262,7 @@ YAT_INLINE void test_rays(const float* block, uint32_t blocks, uint32_t width,
               return ahead & (distance < t);
             }
           },
-          h);
+          [&] { return plane_of<A>(block, width, k, axes, org); }, h);
       if (!found) continue;
       improved |= mask_bits<A>(h.hit);
       if constexpr (Q == Query::kClosest) {

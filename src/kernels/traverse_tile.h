@@ -188,12 +188,12 @@ struct TilePass {
         const UInt<A> candidate(prims[k]);
         TriangleHits<A> h;
         const bool found = test_triangles<A>(
-            vertex(0), vertex(1), vertex(2), shear[2],
+            vertex(0), vertex(1), vertex(2), shear,
             [&](const Float<A>& distance) {
               return in & (distance > zero) &
                      ((distance < t) | ((distance == t) & mask_of<A>(candidate < prim)));
             },
-            h);
+            [&] { return plane_of<A>(block, width, k, axes, org); }, h);
         if (!found) continue;
         here |= mask_bits<A>(h.hit);
         t = select<A>(h.hit, h.t, t);
