@@ -69,7 +69,8 @@ class ThreadPool {
 /// Both, perhaps at the same time. Inside ThreadPool::run.
 template <class F, class G>
 void parallel_invoke(F&& f, G&& g) {
-  const ForkedBody first(f), second(g);
+  const ForkedBody first(f);
+  const ForkedBody second(g);
   const ForkJoin job;
   tbb::parallel_invoke(first, second);
 }
