@@ -224,6 +224,7 @@ Recording record_scene(const std::string& path, const KernelTable& kernels,
                        const RecordOptions& options, Diagnostics& diagnostics) {
   ThreadPool pool;
   CompileOptions compile;
+  compile.instances = InstanceMode::kCopy;  // Embree and the judge get one list of triangles.
   compile.block_width = std::max(4u, kernels.lanes);
   compile.width = options.width;
   compile.height = options.height;
