@@ -19,6 +19,12 @@ if [ "$(printf '%s\n' 7.2 "$version" | sort -V | head -n 1)" != 7.2 ]; then
   echo "skipped: $emulator is $version, and AVX2 is emulated from 7.2 on"
   exit 77
 fi
+# QEMU 7.2 takes a gather's index register ymm4 (ymm4 alone) for none: every lane reads element 0.
+# Code of these two tests gathers by ymm4, as g++ 12 builds it; processors run them well.
+left_out=
+if [ "$version" = 7.2 ]; then
+  left_out=-Isa/InstanceKernels.ClassesFollowTheInstance/avx2:Isa/InstanceRenders.PathsAgreeWithTheOracle/avx2
+fi
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 ran=0 failed=0
@@ -36,7 +42,7 @@ for program in "$@"; do
     failed=1
     continue
   fi
-  if "$emulator" -cpu "$cpu" "$program" --gtest_filter="Isa/*/$isa" >"$log" 2>&1 &&
+  if "$emulator" -cpu "$cpu" "$program" --gtest_filter="Isa/*/$isa$left_out" >"$log" 2>&1 &&
     grep -qE '^\[  PASSED  \] [1-9][0-9]* test' "$log"; then
     grep -E '^\[=+\] .* ran\.' "$log"
     ran=$((ran + 1))
