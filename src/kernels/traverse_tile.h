@@ -63,7 +63,7 @@ struct TilePass {
   const uint32_t way;
   Beam<float> whole;
   /// The sub-beams: field by field, a beam per lane.
-  Beam<float[8]> beams;
+  alignas(64) Beam<float[8]> beams;
   uint32_t live;  ///< bit b: beam b has a ray of this way
   bool one_origin;
   uint32_t tests;  ///< of a sub-beam against a block, and of its rays against a triangle
