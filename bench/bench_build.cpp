@@ -15,7 +15,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <functional>
 #include <string>
 #include <vector>
@@ -280,16 +279,5 @@ int run(int argc, char** argv) {
 }  // namespace yat::bench
 
 int main(int argc, char** argv) {
-  try {
-    return yat::bench::run(argc, argv);
-  } catch (const yat::UsageError& error) {
-    std::fprintf(stderr, "bench_build: %s\n", error.what());
-    return 2;
-  } catch (const yat::Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());  // The message names the file.
-    return 1;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_build: %s\n", error.what());
-    return 1;
-  }
+  return yat::bench::run_program("bench_build", yat::bench::run, argc, argv);
 }

@@ -15,11 +15,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <string>
 
 #include "base/error.h"
 #include "kernels/dispatch.h"
+#include "measure.h"
 #include "rays_file.h"
 #include "traversal_table.h"
 #if defined(YAT_WITH_EMBREE)
@@ -187,16 +187,5 @@ int run(int argc, char** argv) {
 }  // namespace yat::bench
 
 int main(int argc, char** argv) {
-  try {
-    return yat::bench::run(argc, argv);
-  } catch (const yat::UsageError& error) {
-    std::fprintf(stderr, "bench_traversal: %s\n", error.what());
-    return 2;
-  } catch (const yat::Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());  // The message names the file.
-    return 1;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_traversal: %s\n", error.what());
-    return 1;
-  }
+  return yat::bench::run_program("bench_traversal", yat::bench::run, argc, argv);
 }

@@ -8,11 +8,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
+#include <exception>
 #include <fstream>
 #include <string_view>
 
 #include "app/build_info.h"
 #include "app/machine.h"
+#include "base/error.h"
 #include "base/whole_file.h"
 
 namespace yat::bench {
@@ -90,6 +92,23 @@ Json origin(const std::string& program) {
 
 void write_json(const std::string& file, const Json& json) {
   write_whole_file(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+int run_program(const char* name, int (*run)(int, char**), int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const UsageError& error) {
+    fmt::print(stderr, "{}: {}\n", name, error.what());
+    return 2;
+  } catch (const ResourceError& error) {
+    fmt::print(stderr, "{}: {}\n", name, error.what());
+    return 3;
+  } catch (const Error& error) {
+    fmt::print(stderr, "{}\n", error.what());  // The message names the file.
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}: {}\n", name, error.what());
+  }
+  return 1;
 }
 
 }  // namespace yat::bench

@@ -35,6 +35,10 @@ bool reset_peak_bytes();
 /// "flags", "machine": {"cpu", "cores", "memory"}}.
 Json origin(const std::string& program);
 
+/// What main() returns: run's answer, or, after one line on stderr, 2 for a wrong option, 3 for
+/// memory that is not there, 1 for every other error.
+int run_program(const char* name, int (*run)(int, char**), int argc, char** argv);
+
 /// Writes the file whole or not at all. Throws Error "file: error: ...".
 void write_json(const std::string& file, const Json& json);
 

@@ -5,10 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdio>
-#include <exception>
 #include <string>
 
 #include "kernels/dispatch.h"
+#include "measure.h"
 #include "rays_file.h"
 
 namespace {
@@ -68,16 +68,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const yat::UsageError& error) {
-    std::fprintf(stderr, "record_rays: %s\n", error.what());
-    return 2;
-  } catch (const yat::ResourceError& error) {
-    std::fprintf(stderr, "record_rays: %s\n", error.what());
-    return 3;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
+  return yat::bench::run_program("record_rays", run, argc, argv);
 }

@@ -282,40 +282,58 @@ struct ScratchPlan {
   }
 };
 
-/// Traces rows [0, n), n <= kStreamRays, and leaves the answers in the records.
+/// A part of the scratch memory, aligned to 64.
+YAT_INLINE std::byte* take_bytes(std::byte*& free, size_t bytes) {
+  std::byte* const part = free;
+  free += (bytes + 63) / 64 * 64;
+  return part;
+}
+
+/// Takes memory for a stream, sorts its rays and writes their records. Returns room for the slots
+/// of the root's list.
 template <class A, Query Q, class Columns>
-YAT_INLINE LaneCount trace_stream(const TreeView& tree, const Columns& rays, uint32_t n,
-                                  const Scratch& scratch, RayStream& stream) noexcept {
-  const ScratchPlan plan(tree, n);
-  std::byte* free = scratch.memory;
-  const auto take = [&free](size_t bytes) {
-    std::byte* p = free;
-    free += (bytes + 63) / 64 * 64;
-    return p;
-  };
-  stream.records = reinterpret_cast<float*>(take(plan.records));
-  stream.slot_of_row = reinterpret_cast<uint32_t*>(take(plan.words));
-  stream.shift = reinterpret_cast<float*>(take(plan.words));
-  stream.class_of_row = reinterpret_cast<uint32_t*>(take(plan.words));
-  auto* const slots = reinterpret_cast<uint32_t*>(take(plan.words));
+YAT_INLINE uint32_t* open_stream(const TreeView& tree, const Columns& rays, uint32_t n,
+                                 const ScratchPlan& plan, std::byte*& free, RayStream& stream) {
+  stream.records = reinterpret_cast<float*>(take_bytes(free, plan.records));
+  stream.slot_of_row = reinterpret_cast<uint32_t*>(take_bytes(free, plan.words));
+  stream.shift = reinterpret_cast<float*>(take_bytes(free, plan.words));
+  stream.class_of_row = reinterpret_cast<uint32_t*>(take_bytes(free, plan.words));
+  auto* const slots = reinterpret_cast<uint32_t*>(take_bytes(free, plan.words));
   const float extent = extent_of(tree);
   sort_rays<A, Q>(tree, extent, rays, n, stream);
   write_records<A, Q>(extent, rays, n, stream);
+  return slots;
+}
+
+/// The passes over the tree, one per octant for closest hits; answers stay in the records.
+/// slots: from open_stream; free: scratch memory behind it; leaves: see Traversal.
+template <class A, Query Q, class Leaves>
+YAT_INLINE LaneCount trace_octants(const TreeView& tree, const RayStream& stream, uint32_t* slots,
+                                   std::byte* free, Leaves* leaves) {
+  constexpr uint32_t W = kLanes<A>;
   LaneCount count;
   for (uint32_t octant = 0; octant < (Q == Query::kClosest ? 8 : 1); ++octant) {
     const uint32_t* const first = stream.first_slot + 3 * octant;
     const uint32_t m = first[3] - first[0];
     if (m == 0) continue;
-    constexpr uint32_t W = kLanes<A>;
     for (uint32_t i = 0; i < m; i += W)
       (lane_index<A>() + UInt<A>(first[0] + i)).store_unaligned(slots + i);
     UInt<A>(first[0]).store_unaligned(slots + m);
-    Traversal<A, Q> pass{tree, stream.records, first[1], first[2], octant, {}};
+    Traversal<A, Q, Leaves> pass{tree, stream.records, first[1], first[2], octant, {}, leaves};
     pass.visit(0, slots, m, free);
     count.rows += pass.count.rows;
     count.steps += pass.count.steps;
   }
   return count;
+}
+
+/// Traces rows [0, n), n <= kStreamRays, and leaves the answers in the records.
+template <class A, Query Q, class Columns>
+YAT_INLINE LaneCount trace_stream(const TreeView& tree, const Columns& rays, uint32_t n,
+                                  const Scratch& scratch, RayStream& stream) noexcept {
+  std::byte* free = scratch.memory;
+  uint32_t* const slots = open_stream<A, Q>(tree, rays, n, ScratchPlan(tree, n), free, stream);
+  return trace_octants<A, Q>(tree, stream, slots, free, static_cast<void*>(nullptr));
 }
 
 /// See KernelTable. Hits are watertight, in (0, t_max]; of equal distances the lower primitive row

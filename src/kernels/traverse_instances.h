@@ -190,21 +190,9 @@ YAT_INLINE LaneCount trace_instances(const InstancesView& instances, const Ray<C
   constexpr uint32_t W = kLanes<A>;
   const TreeView& tree = instances.top;
   const ScratchPlan plan(tree, n);
-  const auto take = [&free](size_t bytes) {
-    std::byte* p = free;
-    free += (bytes + 63) / 64 * 64;
-    return p;
-  };
-  stream.records = reinterpret_cast<float*>(take(plan.records));
-  stream.slot_of_row = reinterpret_cast<uint32_t*>(take(plan.words));
-  stream.shift = reinterpret_cast<float*>(take(plan.words));
-  stream.class_of_row = reinterpret_cast<uint32_t*>(take(plan.words));
-  auto* const slots = reinterpret_cast<uint32_t*>(take(plan.words));
-  auto* const moved = reinterpret_cast<float*>(take(plan.words));
-  instance_of = reinterpret_cast<uint32_t*>(take(plan.words));
-  const float extent = extent_of(tree);
-  sort_rays<A, Q>(tree, extent, rays, n, stream);
-  write_records<A, Q>(extent, rays, n, stream);
+  uint32_t* const slots = open_stream<A, Q>(tree, rays, n, plan, free, stream);
+  auto* const moved = reinterpret_cast<float*>(take_bytes(free, plan.words));
+  instance_of = reinterpret_cast<uint32_t*>(take_bytes(free, plan.words));
   const uint32_t left_out = stream.first_slot[kClasses];
   for (uint32_t row = 0; row < n; row += W) {
     const RawRays<A> r = load_raw<A, Q>(rays, row);
@@ -223,21 +211,7 @@ YAT_INLINE LaneCount trace_instances(const InstancesView& instances, const Ray<C
   for (uint32_t i = 0; i <= left_out; i += W) UInt<A>(kNone).store_unaligned(instance_of + i);
 
   InstanceLeaves<A, Q> leaves{instances, stream.records, moved, instance_of};
-  LaneCount count;
-  for (uint32_t octant = 0; octant < (Q == Query::kClosest ? 8 : 1); ++octant) {
-    const uint32_t* const first = stream.first_slot + 3 * octant;
-    const uint32_t m = first[3] - first[0];
-    if (m == 0) continue;
-    for (uint32_t i = 0; i < m; i += W)
-      (lane_index<A>() + UInt<A>(first[0] + i)).store_unaligned(slots + i);
-    UInt<A>(first[0]).store_unaligned(slots + m);
-    Traversal<A, Q, InstanceLeaves<A, Q>> pass{tree, stream.records, first[1], first[2], octant,
-                                               {},   &leaves};
-    pass.visit(0, slots, m, free);
-    count.rows += pass.count.rows;
-    count.steps += pass.count.steps;
-  }
-  return count;
+  return trace_octants<A, Q>(tree, stream, slots, free, &leaves);
 }
 
 /// See KernelTable.

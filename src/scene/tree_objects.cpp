@@ -49,28 +49,13 @@ BinMap center_bins(const Set& set) {
   return BinMap(set.half_centers.low, set.half_centers.high, kBins);
 }
 
-void bin_all(const Set& set, Bins& bins) {
-  const BinMap bin = center_bins(set);
-  const std::span<const Reference> references = set.references();
-  const size_t pieces = (set.count + kBinGrain - 1) / kBinGrain;
-  if (pieces <= 1) return bins.add(references, bin);
-  std::vector<Bins> piece(pieces);
-  parallel_ranges(uint32_t(pieces), 1, [&](uint32_t begin, uint32_t end) {
-    for (size_t i = begin; i != end; ++i) {
-      const size_t first = i * kBinGrain;
-      piece[i].add(references.subspan(first, std::min<size_t>(kBinGrain, set.count - first)), bin);
-    }
-  });
-  for (const Bins& b : piece) bins.add(b);
-}
-
 }  // namespace
 
 ObjectSplit find_object_split(const Set& set, const LocalPrices& prices) {
   ObjectSplit best;
   if (!(prices.area > 0)) return best;
   Bins bins;
-  bin_all(set, bins);
+  bin_all(set, center_bins(set), bins);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(set.half_centers.high[axis] > set.half_centers.low[axis])) continue;
     float right_area[kBins];

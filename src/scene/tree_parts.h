@@ -159,6 +159,23 @@ inline constexpr size_t kSmallSet = 64;       ///< Sets up to this size are spli
 inline constexpr size_t kParallel = 4096;     ///< References below which a subtree is one task.
 inline constexpr uint32_t kBinGrain = 32768;  ///< References a task bins at a time.
 
+/// Adds all references of a set to `bins`, which are empty, in pieces that tasks take: what is
+/// added (counts, boxes) does not depend on the order.
+template <class Bins>
+void bin_all(const Set& set, const BinMap& bin, Bins& bins) {
+  const std::span<const Reference> references = set.references();
+  const size_t pieces = (set.count + kBinGrain - 1) / kBinGrain;
+  if (pieces <= 1) return bins.add(references, bin);
+  std::vector<Bins> piece(pieces);
+  parallel_ranges(uint32_t(pieces), 1, [&](uint32_t begin, uint32_t end) {
+    for (size_t i = begin; i != end; ++i) {
+      const size_t first = i * kBinGrain;
+      piece[i].add(references.subspan(first, std::min<size_t>(kBinGrain, set.count - first)), bin);
+    }
+  });
+  for (const Bins& b : piece) bins.add(b);
+}
+
 struct PlaneSplit {
   float cost = HUGE_VALF;
   int axis = 0;

@@ -112,25 +112,6 @@ struct Bins {
   }
 };
 
-Bins bin_all(const Set& set, const BinMap& bin) {
-  const std::span<const Reference> references = set.references();
-  Bins bins;
-  const size_t pieces = (set.count + kBinGrain - 1) / kBinGrain;
-  if (pieces <= 1) {
-    bins.add(references, bin);
-    return bins;
-  }
-  std::vector<Bins> piece(pieces);
-  parallel_ranges(uint32_t(pieces), 1, [&](uint32_t begin, uint32_t end) {
-    for (size_t i = begin; i != end; ++i) {
-      const size_t first = i * kBinGrain;
-      piece[i].add(references.subspan(first, std::min<size_t>(kBinGrain, set.count - first)), bin);
-    }
-  });
-  for (const Bins& b : piece) bins.add(b);
-  return bins;
-}
-
 /// Sweeps the references that begin or end in bins [first, first + 1] of `axis`.
 void sweep_bins(const Set& set, int axis, const BinMap& bin, int first, size_t candidates,
                 const PlanePrice& price, PlaneSplit& best) {
@@ -164,7 +145,8 @@ PlaneSplit find_plane(const Set& set, const LocalPrices& prices) {
     return best;
   }
   const BinMap bin(half(set.box.low), half(set.box.high), kBins);
-  const Bins bins = bin_all(set, bin);
+  Bins bins;
+  bin_all(set, bin, bins);
   float best_binned = HUGE_VALF;
   int best_axis = -1, best_bin = 0;
   for (int axis = 0; axis < 3; ++axis) {
