@@ -181,7 +181,7 @@ void add_classify(const KernelTable& table) {
         }
         AlignedArray<uint32_t> bin(kRows);
         time_rows(state, kRows, [&] {
-          kernel(in.view.geometry.prim_bin, in.plan.emissive_bins, in.plan.transport.max_depth,
+          kernel(in.view.geometry.prim_bin, in.plan.first_lasting_bin, in.plan.transport.max_depth,
                  hits.view(), in.camera_paths.view().depth, bin.data(), kRows);
         });
       });

@@ -136,7 +136,7 @@ bool record_hits(KernelInputs& in) {
                       kRows);
   k.intersect_planes(geometry.planes, geometry.triangles.count + geometry.spheres.count, rays,
                      in.camera_hits.columns(), kRows);
-  k.classify_hits(geometry.prim_bin, in.plan.emissive_bins, in.plan.transport.max_depth,
+  k.classify_hits(geometry.prim_bin, in.plan.first_lasting_bin, in.plan.transport.max_depth,
                   in.camera_hits.view(), in.camera_paths.view().depth, in.bin.data(), kRows);
   return true;
 }

@@ -138,7 +138,7 @@ class Recorder {
     if (plan_.planes)
       kernels_.intersect_planes(geometry.planes, triangles + geometry.spheres.count, rays_.view(),
                                 hits_.columns(), count_);
-    kernels_.classify_hits(geometry.prim_bin, plan_.emissive_bins, plan_.transport.max_depth,
+    kernels_.classify_hits(geometry.prim_bin, plan_.first_lasting_bin, plan_.transport.max_depth,
                            hits_.view(), paths_.view().depth, bin_.data(), count_);
   }
 

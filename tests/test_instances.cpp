@@ -337,9 +337,10 @@ TEST_P(InstanceKernels, ClassesFollowTheInstance) {
     hits.set(i, {1, 0, 0, i % 8 == 7 ? kNone : placed ? i * 37 % triangles : i / 4 % 2});
     depth[i] = i % 3;
   }
-  const uint64_t emissive = 0;
-  kernels().classify_instance_hits(scene.view().instances, scene.prim_bin.data(), emissive, 2,
-                                   hits.view(), instance.data(), depth.data(), bin.data(), n);
+  ASSERT_EQ(scene.first_lasting_bin, scene.bins.size());
+  kernels().classify_instance_hits(scene.view().instances, scene.prim_bin.data(),
+                                   scene.first_lasting_bin, 2, hits.view(), instance.data(),
+                                   depth.data(), bin.data(), n);
   EXPECT_TRUE(bin.untouched());
   for (uint32_t i = 0; i < n; ++i) {
     const Hit<Value> hit = hits.row(i);

@@ -24,7 +24,7 @@ TEST(Plan, SkipsWhatTheSceneDoesNotHold) {
   EXPECT_TRUE(plan.triangles);
   EXPECT_FALSE(plan.spheres || plan.planes || plan.thin_lens || plan.shadow_mask);
   EXPECT_EQ(plan.light_kernel, uint32_t(LightKind::kPoint));
-  EXPECT_EQ(plan.emissive_bins, 0u);
+  EXPECT_EQ(plan.first_lasting_bin, 2u);
   ASSERT_EQ(plan.bins.size(), 2u);
   EXPECT_TRUE(plan.bins[1].sample_lights && plan.bins[1].draw_direction);
   EXPECT_FALSE(plan.bins[1].emission || plan.bins[1].draw_choice || plan.bins[1].draw_lobe);
@@ -54,7 +54,7 @@ TEST(Plan, RunsWhatTheSceneHolds) {
     EXPECT_EQ(bin.draw_roulette, !traits.see_through);
     delta += traits.delta;
     lobes += bin.draw_lobe;
-    EXPECT_EQ(plan.emissive_bins >> b & 1, uint64_t(bin.emission || traits.see_through));
+    EXPECT_EQ(b >= plan.first_lasting_bin, bin.emission || traits.see_through);
   }
   EXPECT_EQ(delta, 3u);
   EXPECT_EQ(lobes, 1u);

@@ -7,22 +7,19 @@
 namespace yat::YAT_ISA {
 
 /// Bins of hits, once paths at their last vertex have been told from the others: those go on only
-/// to bins that emit.
+/// to bins from first_lasting on.
 template <class A>
 YAT_INLINE UInt<A> end_last_vertices(const UInt<A>& bin, const UInt<A>& depth, const Mask<A>& hit,
-                                     uint64_t emissive_bins, uint32_t max_depth) {
-  const UInt<A> zero(0u);
+                                     uint32_t first_lasting, uint32_t max_depth) {
   const Mask<A> last = mask_of<A>((depth & UInt<A>(0xffffu)) >= UInt<A>(max_depth));
   if (!any<A>(last & hit)) return bin;
-  const UInt<A> low_bins{uint32_t(emissive_bins)}, high_bins{uint32_t(emissive_bins >> 32)};
-  const UInt<A> set = select<A>(mask_of<A>(bin < UInt<A>(32u)), low_bins, high_bins);
-  const Mask<A> emits = mask_of<A>(((set >> (bin & UInt<A>(31u))) & UInt<A>(1u)) != zero);
-  return select<A>(last & !emits, zero, bin);
+  const Mask<A> lasts = mask_of<A>(bin >= UInt<A>(first_lasting));
+  return select<A>(last & !lasts, UInt<A>(0u), bin);
 }
 
 /// See KernelTable::classify_hits.
 template <class A>
-void classify_hits(const uint32_t* prim_bin, uint64_t emissive_bins, uint32_t max_depth,
+void classify_hits(const uint32_t* prim_bin, uint32_t first_lasting, uint32_t max_depth,
                    const Hit<ConstColumn>& hits, const uint32_t* depth, uint32_t* bin,
                    uint32_t n) noexcept {
   for (uint32_t row = 0; row < n; row += kLanes<A>) {
@@ -31,7 +28,7 @@ void classify_hits(const uint32_t* prim_bin, uint64_t emissive_bins, uint32_t ma
     UInt<A> b(0u);
     if (any<A>(hit)) {
       b = only<A>(hit, gather<A>(prim_bin, only<A>(hit, prim)));
-      b = end_last_vertices<A>(b, load<A>(depth, row), hit, emissive_bins, max_depth);
+      b = end_last_vertices<A>(b, load<A>(depth, row), hit, first_lasting, max_depth);
     }
     store<A>(b, bin, row);
   }
@@ -40,7 +37,7 @@ void classify_hits(const uint32_t* prim_bin, uint64_t emissive_bins, uint32_t ma
 /// See KernelTable::classify_instance_hits.
 template <class A>
 void classify_instance_hits(const InstancesView& instances, const uint32_t* prim_bin,
-                            uint64_t emissive_bins, uint32_t max_depth,
+                            uint32_t first_lasting, uint32_t max_depth,
                             const Hit<ConstColumn>& hits, const uint32_t* instance,
                             const uint32_t* depth, uint32_t* bin, uint32_t n) noexcept {
   const UInt<A> none(kNone);
@@ -60,7 +57,7 @@ void classify_instance_hits(const InstancesView& instances, const uint32_t* prim
       b = select<A>(placed, of_shape, b);
     }
     if (any<A>(hit))
-      b = end_last_vertices<A>(b, load<A>(depth, row), hit, emissive_bins, max_depth);
+      b = end_last_vertices<A>(b, load<A>(depth, row), hit, first_lasting, max_depth);
     store<A>(b, bin, row);
   }
 }

@@ -143,7 +143,7 @@ struct KernelTable {
                                    uint32_t* occluded, uint32_t n, const Scratch&) noexcept;
   /// classify_hits where instance[i] says that the hit is in an instance.
   void (*classify_instance_hits)(const InstancesView&, const uint32_t* prim_bin,
-                                 uint64_t emissive_bins, uint32_t max_depth,
+                                 uint32_t first_lasting, uint32_t max_depth,
                                  const Hit<ConstColumn>&, const uint32_t* instance,
                                  const uint32_t* depth, uint32_t* bin, uint32_t n) noexcept;
   /// make_surfaces for bins of instanced triangles; [1] with vertex data.
@@ -154,9 +154,9 @@ struct KernelTable {
                                     uint32_t n) noexcept;
 
   // -- sort -------------------------------------------------------------------------------------
-  /// bin[i] of each hit: prim_bin[prim]; 0 for a miss, and for a path at max_depth whose bin has no
-  /// bit in `emissive_bins` (bit b: bin b emits; at most 64 bins).
-  void (*classify_hits)(const uint32_t* prim_bin, uint64_t emissive_bins, uint32_t max_depth,
+  /// bin[i] of each hit: prim_bin[prim]; 0 for a miss, and for a path at max_depth whose bin is
+  /// below `first_lasting` (Scene::first_lasting_bin).
+  void (*classify_hits)(const uint32_t* prim_bin, uint32_t first_lasting, uint32_t max_depth,
                         const Hit<ConstColumn>&, const uint32_t* depth, uint32_t* bin,
                         uint32_t n) noexcept;
 

@@ -17,4 +17,5 @@ target_sources(
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_textures.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/data_files.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/instances.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/material_traits.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/parameters.cpp)

@@ -90,7 +90,7 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   BinKeys keys;
   rows.add_keys(keys);
   objects.add_keys(keys);
-  keys.number(scene);
+  keys.number(scene, diagnostics);
   std::vector<uint8_t> occludes;
   rows.finish(keys, scene, occludes);
   objects.finish(keys, scene, rows.lights());

@@ -27,7 +27,7 @@ struct Bin {
   bool instanced = false;   ///< triangles of shared objects; else rows of the scene's own tables
   uint64_t primitives = 0;  ///< in this bin; those of an object count once per instance
 };
-inline constexpr uint32_t kMaxBins = 64;  ///< 4 geometry kinds, 64 material kinds: in practice < 20
+inline constexpr uint32_t kMaxBins = 1024;  ///< in practice below 40
 
 /// --tree: which tree over the triangles.
 enum class TreeChoice {
@@ -83,6 +83,9 @@ struct Scene {
   CameraView camera{};
   FilterView filter{};
   std::vector<Bin> bins;  ///< bins[0] is the ended bin
+  /// Bins from here on are visited by paths at their last vertex too: for the emission of the
+  /// surface or, where it is see-through, of what lies behind.
+  uint32_t first_lasting_bin = 1;
   uint32_t light_kinds = 0;
   bool all_occlude = true;
   bool thin_lens = false;

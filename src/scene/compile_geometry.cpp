@@ -42,20 +42,27 @@ void add_to_bounds(const PlacedShape& placed, Bounds& bounds) {
   }
 }
 
-uint32_t BinKeys::of(GeometryKind geometry, MaterialKind material, bool emissive, Placing placing) {
-  return uint32_t(placing) << 24 | uint32_t(geometry) << 16 | uint32_t(material) << 1 |
-         uint32_t(emissive);
+BinKey BinKey::of(GeometryKind geometry, MaterialKind material, bool emissive, Placing placing) {
+  return {.lasting = emissive || material_traits(material).see_through,
+          .placing = placing,
+          .geometry = geometry,
+          .material = material,
+          .emissive = emissive};
 }
 
-void BinKeys::number(Scene& scene) {
+void BinKeys::number(Scene& scene, Diagnostics& diagnostics) {
+  if (bin_of_key_.size() >= kMaxBins)
+    diagnostics.fail({}, fmt::format("the scene combines {} kinds of shapes and materials; at most "
+                                     "{} are possible: use fewer kinds of materials",
+                                     bin_of_key_.size(), kMaxBins - 1));
   scene.bins.assign(1, Bin{});
+  scene.first_lasting_bin = 1;
   for (auto& [key, bin] : bin_of_key_) {
     bin = uint32_t(scene.bins.size());
-    scene.bins.push_back({GeometryKind(key >> 16 & 0xff), MaterialKind(key >> 1 & 0x7fff),
-                          bool(key & 1), bool(key >> 24), 0});
+    scene.bins.push_back(
+        {key.geometry, key.material, key.emissive, key.placing == Placing::kByInstance, 0});
+    if (!key.lasting) scene.first_lasting_bin = bin + 1;
   }
-  // Instances place triangles only.
-  static_assert((uint32_t(GeometryKind::kCount) + 2) * kMaterialKinds * 2 < kMaxBins);
 }
 
 void GeometryRows::add(const PlacedShape& placed) {
@@ -85,8 +92,8 @@ void GeometryRows::add_mesh(const PlacedShape& placed, const Mesh& mesh) {
     lights_.push_back(light);
   }
   triangle_runs_.push_back(
-      {first, BinKeys::of(added.flat ? GeometryKind::kTriangleFlat : GeometryKind::kTriangleVertex,
-                          placed.material.kind, placed.emissive(), Placing::kOnce)});
+      {first, BinKey::of(added.flat ? GeometryKind::kTriangleFlat : GeometryKind::kTriangleVertex,
+                         placed.material.kind, placed.emissive(), Placing::kOnce)});
 }
 
 void GeometryRows::add_sphere(const PlacedShape& placed) {
@@ -125,7 +132,7 @@ void GeometryRows::add_sphere(const PlacedShape& placed) {
   }
   spheres_.push_back(row);
   sphere_keys_.push_back(
-      BinKeys::of(GeometryKind::kSphere, placed.material.kind, placed.emissive(), Placing::kOnce));
+      BinKey::of(GeometryKind::kSphere, placed.material.kind, placed.emissive(), Placing::kOnce));
 }
 
 void GeometryRows::add_plane(const PlacedShape& placed) {
@@ -138,13 +145,13 @@ void GeometryRows::add_plane(const PlacedShape& placed) {
   row.occludes = placed.material.kind != MaterialKind::kNull;
   planes_.push_back(row);
   plane_keys_.push_back(
-      BinKeys::of(GeometryKind::kPlane, placed.material.kind, placed.emissive(), Placing::kOnce));
+      BinKey::of(GeometryKind::kPlane, placed.material.kind, placed.emissive(), Placing::kOnce));
 }
 
 void GeometryRows::add_keys(BinKeys& keys) const {
   for (const Run& run : triangle_runs_) keys.add(run.key);
-  for (uint32_t key : sphere_keys_) keys.add(key);
-  for (uint32_t key : plane_keys_) keys.add(key);
+  for (const BinKey& key : sphere_keys_) keys.add(key);
+  for (const BinKey& key : plane_keys_) keys.add(key);
 }
 
 void GeometryRows::finish(const BinKeys& keys, Scene& scene, std::vector<uint8_t>& occludes) {

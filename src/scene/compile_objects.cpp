@@ -221,8 +221,8 @@ void ObjectCompiler::add_to_bounds(Bounds& bounds) const {
   }
 }
 
-uint32_t ObjectCompiler::key(const Run& run, const MaterialRef& material) const {
-  return BinKeys::of(run.geometry, material.kind, run.emissive, Placing::kByInstance);
+BinKey ObjectCompiler::key(const Run& run, const MaterialRef& material) const {
+  return BinKey::of(run.geometry, material.kind, run.emissive, Placing::kByInstance);
 }
 
 void ObjectCompiler::add_keys(BinKeys& keys) const {

@@ -126,7 +126,7 @@ class ObjectCompiler {
                     const glm::dvec3& scene_center);
   static TopBox placed_bounds(const Object& object, const Map& map);
   static InstanceRow<Value> row_of(const Object& object, const Map& map);
-  uint32_t key(const Run& run, const MaterialRef& material) const;
+  BinKey key(const Run& run, const MaterialRef& material) const;
   /// Appends a row per shape; lights are not known yet. Returns the first.
   uint32_t add_shapes(const SharedShapes::Instance& instance, const BinKeys& keys,
                       std::vector<InstanceShapeRow<Value>>& shapes) const;

@@ -2,6 +2,7 @@
 // The parts of compile_scene(), one per kind of statement. Each reads its plugins through
 // Parameters, so that diagnostics are alike everywhere.
 
+#include <compare>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <map>
@@ -185,18 +186,29 @@ LightRow<Value> triangle_light(const TriangleRow<Value>& row, const glm::dvec3& 
 /// Whether a bin's primitives are in the scene's own tables, or in shared objects.
 enum class Placing : uint32_t { kOnce, kByInstance };
 
-/// What tells bins apart, and the bins that follow: in the order of their keys, so that they do not
-/// depend on the order of shapes.
+/// What tells bins apart, in the order in which they are numbered.
+struct BinKey {
+  bool lasting = false;  ///< first: those that paths at their last vertex still visit are the last
+  Placing placing = Placing::kOnce;
+  GeometryKind geometry = GeometryKind::kTriangleFlat;
+  MaterialKind material = MaterialKind::kMatte;
+  bool emissive = false;
+  static BinKey of(GeometryKind geometry, MaterialKind material, bool emissive, Placing placing);
+  auto operator<=>(const BinKey&) const = default;
+};
+
+/// The bins of a scene: in the order of their keys, so that they do not depend on the order of
+/// shapes.
 class BinKeys {
  public:
-  static uint32_t of(GeometryKind geometry, MaterialKind material, bool emissive, Placing placing);
-  void add(uint32_t key) { bin_of_key_.emplace(key, 0); }
-  /// Writes scene.bins (no primitives counted yet).
-  void number(Scene& scene);
-  uint32_t bin(uint32_t key) const { return bin_of_key_.at(key); }
+  void add(const BinKey& key) { bin_of_key_.emplace(key, 0); }
+  /// Writes scene.bins (no primitives counted yet) and first_lasting_bin. An error if there are
+  /// more than kMaxBins.
+  void number(Scene& scene, Diagnostics& diagnostics);
+  uint32_t bin(const BinKey& key) const { return bin_of_key_.at(key); }
 
  private:
-  std::map<uint32_t, uint32_t> bin_of_key_;
+  std::map<BinKey, uint32_t> bin_of_key_;
 };
 
 /// Collects rows in scene space; see compile_geometry.cpp.
@@ -217,7 +229,8 @@ class GeometryRows {
 
   /// Rows [first, ..) of a primitive kind that share a bin.
   struct Run {
-    uint32_t first, key;
+    uint32_t first;
+    BinKey key;
   };
   glm::dvec3 center_;
   Diagnostics& diagnostics_;
@@ -226,7 +239,7 @@ class GeometryRows {
   std::vector<TriangleVertexRow<Value>> vertices_;  ///< of runs with kTriangleVertex, in order
   std::vector<SphereRow<Value>> spheres_;
   std::vector<PlaneRow<Value>> planes_;
-  std::vector<uint32_t> sphere_keys_, plane_keys_;
+  std::vector<BinKey> sphere_keys_, plane_keys_;
   std::vector<LightRow<Value>> lights_;
   uint32_t degenerate_ = 0;
 };

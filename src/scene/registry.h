@@ -40,4 +40,7 @@ struct MaterialTraits {
   bool needs_direction;   ///< draws Randoms::bsdf_u, bsdf_v
 };
 
+/// Throws std::logic_error for kCount.
+MaterialTraits material_traits(MaterialKind kind);
+
 }  // namespace yat

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "kernels/materials/all.h"
 #include "wavefront/stages.h"
 
 namespace yat {
@@ -61,22 +60,7 @@ void need_kernels(const Plan& plan) {
 
 }  // namespace
 
-MaterialTraits material_traits(MaterialKind kind) {
-  switch (kind) {
-#define YAT_MATERIAL(file, Type) \
-  case MaterialKind::k##Type:    \
-    return k##Type##Traits;
-    YAT_MATERIALS(YAT_MATERIAL)
-#undef YAT_MATERIAL
-    case MaterialKind::kCount:
-      break;
-  }
-  throw std::logic_error("material_traits: no such material kind");
-}
-
 Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions& options) {
-  if (scene.bins.size() > kMaxBins)
-    throw std::logic_error(fmt::format("{} bins; at most {}", scene.bins.size(), kMaxBins));
   Plan plan;
   plan.kernels = &kernels;
   plan.sampler = options.sampler;
@@ -100,6 +84,7 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
   // Scattering vertices beyond the first that plays roulette are needed for it to be played.
   const bool roulette = plan.transport.max_depth > plan.transport.roulette_depth;
 
+  plan.first_lasting_bin = scene.first_lasting_bin;
   plan.bins.resize(scene.bins.size());
   for (uint32_t b = 1; b < scene.bins.size(); ++b) {
     BinPlan& bin = plan.bins[b];
@@ -111,8 +96,6 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
     bin.draw_lobe = traits.needs_lobe;
     bin.draw_direction = traits.needs_direction;
     bin.draw_roulette = roulette && !traits.see_through;
-    // A path at its last vertex goes on through what does not scatter, to what emits.
-    if (bin.emission || traits.see_through) plan.emissive_bins |= uint64_t(1) << b;
   }
   need_kernels(plan);
   return plan;
@@ -204,11 +187,10 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
           "no material chooses between lobes");
   skipped(any_bin([](const BinPlan& b) { return b.draw_roulette; }), "draw roulette",
           "no path gets as far as Russian roulette");
-#define YAT_MATERIAL(file, Type)                                                             \
-  skipped(any_bin([](const BinPlan& b) { return b.bin.material == MaterialKind::k##Type; }), \
-          "shade " + std::string(k##Type##Traits.name), "no surface of this material");
-  YAT_MATERIALS(YAT_MATERIAL)
-#undef YAT_MATERIAL
+  for (uint32_t kind = 0; kind < kMaterialKinds; ++kind)
+    skipped(any_bin([&](const BinPlan& b) { return b.bin.material == MaterialKind(kind); }),
+            "shade " + std::string(material_traits(MaterialKind(kind)).name),
+            "no surface of this material");
   return text;
 }
 

@@ -29,10 +29,8 @@ struct Plan {
   const KernelTable* kernels = nullptr;
   SamplerKind sampler = SamplerKind::kSobol;
   TransportOptions transport;
-  std::vector<BinPlan> bins;  ///< parallel to Scene::bins; [0] is the ended bin
-  /// Bit b: a path that reaches bin b at its last vertex still goes there, for the emission of its
-  /// surface or, where the surface is see-through, of what lies behind.
-  uint64_t emissive_bins = 0;
+  std::vector<BinPlan> bins;       ///< parallel to Scene::bins; [0] is the ended bin
+  uint32_t first_lasting_bin = 1;  ///< of the scene
   bool thin_lens = false;
   bool triangles = false, spheres = false, planes = false;  ///< which intersect stages run
   bool instances = false;      ///< shared objects: a second level of trees, and its kernels
@@ -48,8 +46,6 @@ struct PlanOptions {
   uint32_t max_depth = 16;
   uint32_t seed = 0;
 };
-
-MaterialTraits material_traits(MaterialKind kind);
 
 /// Throws std::logic_error when the table lacks a kernel that the scene needs.
 Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions& options);

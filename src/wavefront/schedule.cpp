@@ -114,15 +114,20 @@ void Worker::sort() {
   clock_.enter(Stage::kSort, count_);
   const uint32_t* depth = batch_.paths[current_].columns().depth;
   if (plan_.instances)
-    kernels_.classify_instance_hits(view_.instances, view_.geometry.prim_bin, plan_.emissive_bins,
-                                    plan_.transport.max_depth, batch_.hits.view(),
-                                    batch_.instance.data(), depth, batch_.bin.data(), count_);
+    kernels_.classify_instance_hits(view_.instances, view_.geometry.prim_bin,
+                                    plan_.first_lasting_bin, plan_.transport.max_depth,
+                                    batch_.hits.view(), batch_.instance.data(), depth,
+                                    batch_.bin.data(), count_);
   else
-    kernels_.classify_hits(view_.geometry.prim_bin, plan_.emissive_bins, plan_.transport.max_depth,
-                           batch_.hits.view(), depth, batch_.bin.data(), count_);
+    kernels_.classify_hits(view_.geometry.prim_bin, plan_.first_lasting_bin,
+                           plan_.transport.max_depth, batch_.hits.view(), depth, batch_.bin.data(),
+                           count_);
   // Counting sort. Two histograms: neighbouring rows are often of one bin, and an increment that
   // waits for the store before it takes several cycles.
-  uint32_t even[kMaxBins] = {}, odd[kMaxBins] = {};
+  const uint32_t bins = uint32_t(plan_.bins.size());
+  uint32_t even[kMaxBins], odd[kMaxBins];
+  std::fill_n(even, bins, 0u);
+  std::fill_n(odd, bins, 0u);
   const uint32_t* bin = batch_.bin.data();
   uint32_t i = 0;
   for (; i + 1 < count_; i += 2) {
@@ -130,7 +135,6 @@ void Worker::sort() {
     ++odd[bin[i + 1]];
   }
   if (i < count_) ++even[bin[i]];
-  const uint32_t bins = uint32_t(plan_.bins.size());
   uint32_t place[kMaxBins];
   uint32_t sum = 0;
   for (uint32_t b = 0; b < bins; ++b) {
