@@ -40,37 +40,45 @@ TracedSet::TracedSet(const Config& config, const RaySet& set)
       camera_(set.camera()),
       n_(uint32_t(set.rays.size())),
       stream_(config.stream ? config.stream : stream_rows(set)) {
-  scratch_.emplace_back(config.kernel.scratch_bytes(config.tree->view, stream_));
   if (shadow_) {
     shadow_rays_.resize(n_);
-    occluded_.resize(n_);
     for (uint32_t i = 0; i < n_; ++i) {
       const Ray<Value>& r = set.rays[i];
       shadow_rays_.set(i, {r.org_x, r.org_y, r.org_z, r.dir_x, r.dir_y, r.dir_z, 0, 0, 0, i});
     }
   } else {
     rays_.resize(n_);
-    hits_.resize(n_);
     for (uint32_t i = 0; i < n_; ++i) rays_.set(i, set.rays[i]);
   }
+  answers_.emplace_back(*this);
 }
 
-LaneCount TracedSet::trace_stream(uint32_t first, const Scratch& scratch) {
+TracedSet::Answers::Answers(const TracedSet& set)
+    : scratch(set.config_.kernel.scratch_bytes(set.config_.tree->view, set.stream_)) {
+  if (set.shadow_)
+    occluded.resize(set.n_);
+  else
+    hits.resize(set.n_);
+}
+
+LaneCount TracedSet::trace_stream(uint32_t first, Answers& to) {
   const uint32_t rows = std::min(stream_, n_ - first);
   const TreeView& tree = config_.tree->view;
+  const Scratch scratch{to.scratch.data(), to.scratch.size()};
   if (shadow_)
     return config_.kernel.shadow(tree, columns_from(shadow_rays_.view(), first),
-                                 occluded_.data() + first, rows, scratch);
+                                 to.occluded.data() + first, rows, scratch);
   const auto closest = camera_ ? config_.kernel.camera : config_.kernel.closest;
-  return closest(tree, columns_from(rays_.view(), first), columns_from(hits_.columns(), first),
+  return closest(tree, columns_from(rays_.view(), first), columns_from(to.hits.columns(), first),
                  rows, scratch);
 }
 
-TraceTime TracedSet::trace() {
+TraceTime TracedSet::trace_from(uint32_t first_stream, Answers& to) {
   TraceTime time;
+  const uint32_t streams = (n_ + stream_ - 1) / stream_;
   const double wall = wall_seconds(), cpu = thread_seconds();
-  for (uint32_t first = 0; first < n_; first += stream_) {
-    const LaneCount count = trace_stream(first, {scratch_[0].data(), scratch_[0].size()});
+  for (uint32_t s = 0; s < streams; ++s) {
+    const LaneCount count = trace_stream((first_stream + s) % streams * stream_, to);
     time.lanes.rows += count.rows;
     time.lanes.steps += count.steps;
   }
@@ -79,27 +87,20 @@ TraceTime TracedSet::trace() {
   return time;
 }
 
+TraceTime TracedSet::trace() {
+  return trace_from(0, answers_[0]);
+}
+
 TraceTime TracedSet::trace_on(uint32_t threads) {
-  while (scratch_.size() < threads)
-    scratch_.emplace_back(config_.kernel.scratch_bytes(config_.tree->view, stream_));
-  // Output columns of neighbouring streams must not share padding: a stream is a multiple of
-  // kRowPad rows, so that they do not.
-  std::atomic<uint32_t> next{0}, ready{0};
+  while (answers_.size() < threads) answers_.emplace_back(*this);
+  std::atomic<uint32_t> ready{0};
   std::vector<TraceTime> times(threads);
+  const uint32_t streams = (n_ + stream_ - 1) / stream_;
   const auto work = [&](uint32_t worker) {
     ++ready;
     while (ready < threads) std::this_thread::yield();
-    const double wall = wall_seconds(), cpu = thread_seconds();
-    for (;;) {
-      const uint32_t first = next.fetch_add(stream_);
-      if (first >= n_) break;
-      const LaneCount count =
-          trace_stream(first, {scratch_[worker].data(), scratch_[worker].size()});
-      times[worker].lanes.rows += count.rows;
-      times[worker].lanes.steps += count.steps;
-    }
-    times[worker].cpu = thread_seconds() - cpu;
-    times[worker].wall = wall_seconds() - wall;
+    // Each begins elsewhere, so that they do not run through the same nodes side by side.
+    times[worker] = trace_from(streams * worker / threads, answers_[worker]);
   };
   std::vector<std::thread> others;
   for (uint32_t worker = 1; worker < threads; ++worker) others.emplace_back(work, worker);
@@ -107,8 +108,8 @@ TraceTime TracedSet::trace_on(uint32_t threads) {
   for (std::thread& other : others) other.join();
   TraceTime all;
   for (const TraceTime& time : times) {
-    all.cpu += time.cpu;
-    all.wall = std::max(all.wall, time.wall);
+    all.cpu += time.cpu / threads;
+    all.wall = std::max(all.wall, time.wall / threads);
     all.lanes.rows += time.lanes.rows;
     all.lanes.steps += time.lanes.steps;
   }
@@ -116,8 +117,8 @@ TraceTime TracedSet::trace_on(uint32_t threads) {
 }
 
 Hit<Value> TracedSet::hit(uint32_t row) const {
-  if (shadow_) return {0, 0, 0, occluded_[row] ? 0 : kNone};
-  return hits_.row(row);
+  if (shadow_) return {0, 0, 0, answers_[0].occluded[row] ? 0 : kNone};
+  return answers_[0].hits.row(row);
 }
 
 }  // namespace yat::bench

@@ -57,24 +57,32 @@ class TracedSet {
 
   /// All rays on this thread.
   TraceTime trace();
-  /// All rays on `threads` threads, which take the streams as they come.
+  /// All rays on each of `threads` threads at once, each with memory of its own as the workers of a
+  /// render have; times are divided by the threads, that is for one set.
   TraceTime trace_on(uint32_t threads);
 
-  /// Answers of the last trace. A shadow ray: prim = 0 where it is stopped, else kNone.
+  /// Answers of the first thread's last trace. A shadow ray: prim = 0 where it is stopped, else
+  /// kNone.
   Hit<Value> hit(uint32_t row) const;
   uint32_t rows() const { return n_; }
 
  private:
-  LaneCount trace_stream(uint32_t first, const Scratch& scratch);
+  /// What one thread writes to.
+  struct Answers {
+    explicit Answers(const TracedSet& set);
+    Table<Hit> hits;
+    AlignedArray<uint32_t> occluded;
+    AlignedArray<std::byte> scratch;
+  };
+  LaneCount trace_stream(uint32_t first, Answers& to);
+  TraceTime trace_from(uint32_t first_stream, Answers& to);
 
   Config config_;
   bool shadow_, camera_;
   uint32_t n_, stream_;
   Table<Ray> rays_;
   Table<ShadowRay> shadow_rays_;
-  Table<Hit> hits_;
-  AlignedArray<uint32_t> occluded_;
-  std::vector<AlignedArray<std::byte>> scratch_;  ///< one per thread
+  std::vector<Answers> answers_;  ///< one per thread
 };
 
 }  // namespace yat::bench
