@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/compile_materials.h"
 #include "scene/compile_parts.h"
 #include "scene/tree_top.h"
 

@@ -68,39 +68,6 @@ struct MaterialRef {
   uint32_t row = 0;
 };
 
-/// Turns material entries into parameter rows, each once.
-class MaterialCompiler {
- public:
-  MaterialCompiler(const Description& description, const ColourModel& colour,
-                   Diagnostics& diagnostics)
-      : description_(description),
-        colour_(colour),
-        diagnostics_(diagnostics),
-        done_(description.materials.size() + 1) {}
-
-  /// entry: row of Description::materials, or kNone for the default matte.
-  MaterialRef compile(uint32_t entry);
-  /// Moves the tables into the scene.
-  void finish(Scene& scene);
-
- private:
-  template <template <template <class> class> class Record>
-  MaterialRef add(MaterialKind kind, const Record<Value>& record);
-  MaterialRef add_matte(const glm::dvec3& kd, double sigma_degrees);
-  MaterialRef add_mirror(const glm::dvec3& kr);
-  MaterialRef add_glass(const glm::dvec3& kr, const glm::dvec3& kt, double index);
-  MaterialRef build(const Plugin& plugin);
-  MaterialRef build_unsupported(Parameters& parameters);
-  glm::dvec3 reflectance(Parameters& parameters, std::string_view name, double fallback);
-
-  const Description& description_;
-  const ColourModel& colour_;
-  Diagnostics& diagnostics_;
-  std::vector<std::optional<MaterialRef>> done_;
-  std::array<std::vector<uint32_t>, kMaterialKinds> words_;
-  std::array<uint32_t, kMaterialKinds> rows_{};
-};
-
 // ---- Shapes (lxs 5) --------------------------------------------------------------------------
 
 /// A triangle mesh in object space. Spans are into the description, or into `owned`.

@@ -1,0 +1,105 @@
+#pragma once
+// Materials -> parameter tables (lxs 7). compile_materials.cpp knows which types there are; a
+// family of types is one file with a function for each of them.
+
+#include <array>
+#include <cstring>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "scene/compile_parts.h"
+
+namespace yat {
+
+/// Turns material entries into parameter rows, each once.
+class MaterialCompiler {
+ public:
+  MaterialCompiler(const Description& description, const ColourModel& colour,
+                   Diagnostics& diagnostics)
+      : description_(description),
+        colour_(colour),
+        diagnostics_(diagnostics),
+        done_(description.materials.size() + 1) {}
+
+  /// entry: row of Description::materials, or kNone for the default matte.
+  MaterialRef compile(uint32_t entry);
+  /// Moves the tables into the scene.
+  void finish(Scene& scene);
+
+  // -- For the families ---------------------------------------------------------------------------
+  /// Appends a row to the kind's table.
+  template <template <template <class> class> class Record>
+  MaterialRef add(MaterialKind kind, const Record<Value>& record) {
+    auto& words = words_[uint32_t(kind)];
+    const uint32_t row = rows_[uint32_t(kind)]++;
+    words.resize(size_t(row + 1) * row_words<Record>);
+    for_each_field(
+        [&](auto index, const auto& field) {
+          std::memcpy(&words[size_t(row) * row_words<Record> + index], &field, 4);
+        },
+        record);
+    return {kind, row};
+  }
+  /// A colour parameter in linear Rec.709, clamped to 0..1 with one warning.
+  glm::dvec3 reflectance(Parameters& parameters, std::string_view name, double fallback);
+  /// The same in the scene's bands.
+  glm::vec3 reflectance_bands(Parameters& parameters, std::string_view name, double fallback);
+  /// A colour of linear Rec.709 in the scene's bands.
+  glm::vec3 bands(const glm::dvec3& rgb) const;
+  /// A float parameter, clamped to [least, most] with one warning. Not a number: least.
+  double clamped(Parameters& parameters, std::string_view name, double fallback, double least,
+                 double most);
+  /// Matte instead of a type that has no kernel, in the colour of parameter `color` (empty: in
+  /// grey `fallback`), with a warning.
+  MaterialRef stand_in(Parameters& parameters, std::string_view color, double fallback);
+
+  const Description& description() const { return description_; }
+  const ColourModel& colour() const { return colour_; }
+  Diagnostics& diagnostics() { return diagnostics_; }
+
+ private:
+  MaterialRef build(const Plugin& plugin);
+
+  const Description& description_;
+  const ColourModel& colour_;
+  Diagnostics& diagnostics_;
+  std::vector<std::optional<MaterialRef>> done_;
+  std::array<std::vector<uint32_t>, kMaterialKinds> words_;
+  std::array<uint32_t, kMaterialKinds> rows_{};
+};
+
+/// Lambert (sigma 0) or Oren-Nayar. kd: linear Rec.709, 0..1; sigma in degrees, 0..90.
+MaterialRef add_matte(MaterialCompiler& compiler, const glm::dvec3& kd, double sigma_degrees);
+
+/// Thin films change the colour of reflections.
+void accept_film(Parameters& parameters);
+
+// One function per type: reads the parameters, adds the row. What every material takes (bump maps,
+// compositing switches) is read by the caller.
+using BuildMaterial = MaterialRef (*)(MaterialCompiler&, Parameters&);
+
+// compile_diffuse.cpp
+MaterialRef build_matte(MaterialCompiler& compiler, Parameters& parameters);
+MaterialRef build_mattetranslucent(MaterialCompiler& compiler, Parameters& parameters);
+MaterialRef build_velvet(MaterialCompiler& compiler, Parameters& parameters);
+MaterialRef build_cloth(MaterialCompiler& compiler, Parameters& parameters);
+MaterialRef build_scatter(MaterialCompiler& compiler, Parameters& parameters);
+// compile_coated.cpp
+MaterialRef build_glossy(MaterialCompiler& compiler, Parameters& parameters);
+MaterialRef build_glossycoating(MaterialCompiler& compiler, Parameters& parameters);
+MaterialRef build_glossy_lossy(MaterialCompiler& compiler, Parameters& parameters);
+MaterialRef build_glossytranslucent(MaterialCompiler& compiler, Parameters& parameters);
+MaterialRef build_carpaint(MaterialCompiler& compiler, Parameters& parameters);
+// compile_metals.cpp
+MaterialRef build_mirror(MaterialCompiler& compiler, Parameters& parameters);
+MaterialRef build_metal(MaterialCompiler& compiler, Parameters& parameters);
+MaterialRef build_metal2(MaterialCompiler& compiler, Parameters& parameters);
+MaterialRef build_shinymetal(MaterialCompiler& compiler, Parameters& parameters);
+// compile_glass.cpp
+MaterialRef build_glass(MaterialCompiler& compiler, Parameters& parameters);
+MaterialRef build_glass2(MaterialCompiler& compiler, Parameters& parameters);
+MaterialRef build_roughglass(MaterialCompiler& compiler, Parameters& parameters);
+
+}  // namespace yat
