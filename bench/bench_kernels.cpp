@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
     }
     const yat::KernelTable& table = *isa.table();
     yat::bench::add_traversal_benchmarks(table);
+    yat::bench::add_instance_benchmarks(table);
     yat::bench::add_shading_benchmarks(table);
     yat::bench::add_bsdf_benchmarks(table);
   }

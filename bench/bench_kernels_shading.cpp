@@ -21,16 +21,6 @@ static_assert(std::size(kGeometryNames) == uint32_t(GeometryKind::kCount));
 constexpr const char* kLightNames[] = {"triangle", "sphere", "point", "distant", "mixed"};
 static_assert(std::size(kLightNames) == uint32_t(LightKind::kCount) + 1);
 
-/// The recorded turn's rows are as sparse in the batch as the share says: every row of a bin that
-/// holds a quarter of the batch lies four rows from the next.
-AlignedArray<uint32_t> sparse_order(const ShadingRows& rows, uint32_t share, uint32_t& n) {
-  AlignedArray<uint32_t> order(kRows);
-  n = 0;
-  for (uint32_t i = 0; i < kRows; ++i)
-    if (is_active(i, share)) order[n++] = rows.order[i];
-  return order;
-}
-
 void add_surfaces(const KernelTable& table) {
   for (uint32_t kind = 0; kind < uint32_t(GeometryKind::kCount); ++kind) {
     const std::string name = std::string("make_surfaces/") + kGeometryNames[kind];

@@ -7,12 +7,6 @@
 
 namespace yat::bench {
 
-namespace {
-
-constexpr const char* kSamplerNames[] = {"independent", "sobol"};
-static_assert(std::size(kSamplerNames) == uint32_t(SamplerKind::kCount));
-
-/// A copy of rays in which only a share is alive: the others have no length.
 Table<Ray> with_share(const Table<Ray>& rays, uint32_t n, uint32_t share) {
   Table<Ray> out(n);
   for (uint32_t i = 0; i < n; ++i) {
@@ -31,6 +25,11 @@ Table<ShadowRay> with_share(const Table<ShadowRay>& rays, uint32_t n, uint32_t s
   }
   return out;
 }
+
+namespace {
+
+constexpr const char* kSamplerNames[] = {"independent", "sobol"};
+static_assert(std::size(kSamplerNames) == uint32_t(SamplerKind::kCount));
 
 void add_draw(const KernelTable& table) {
   for (uint32_t sampler = 0; sampler < uint32_t(SamplerKind::kCount); ++sampler) {

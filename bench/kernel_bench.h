@@ -59,6 +59,10 @@ void add_share_benchmarks(const std::string& kernel, const KernelTable& table, F
         ->UseManualTime();
 }
 
+/// A copy of rays in which only a share is alive: the others have no length.
+Table<Ray> with_share(const Table<Ray>& rays, uint32_t n, uint32_t share);
+Table<ShadowRay> with_share(const Table<ShadowRay>& rays, uint32_t n, uint32_t share);
+
 /// A table entry that is null is a finding: it is counted, shown as an error in the results, and
 /// the program ends with 1.
 void add_missing(const std::string& kernel, const KernelTable& table);
@@ -71,6 +75,7 @@ inline void no_rows(benchmark::State& state) {
 }
 
 void add_traversal_benchmarks(const KernelTable& table);
+void add_instance_benchmarks(const KernelTable& table);
 void add_shading_benchmarks(const KernelTable& table);
 void add_bsdf_benchmarks(const KernelTable& table);
 void add_film_benchmarks();

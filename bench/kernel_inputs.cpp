@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <map>
+#include <numbers>
 #include <stdexcept>
 
 #include "base/error.h"
+#include "kernel_bench.h"
 #include "scene/parse.h"
 
 namespace yat::bench {
@@ -90,6 +93,62 @@ Shape "trianglemesh" "integer indices" [0 2 1 0 3 2  4 5 6 4 6 7]
 
 namespace {
 
+/// A ball of radius 1 with waves on it, as rings of triangles.
+std::string ball_text(int rings, int segments, bool normals) {
+  std::string points, directions, indices;
+  for (int j = 0; j <= rings; ++j)
+    for (int i = 0; i < segments; ++i) {
+      const double theta = std::numbers::pi * j / rings, phi = 2 * std::numbers::pi * i / segments;
+      const double x = std::sin(theta) * std::cos(phi), y = std::sin(theta) * std::sin(phi),
+                   z = std::cos(theta);
+      const double r = 1 + 0.05 * std::sin(3 * phi) * std::sin(5 * theta) * std::sin(theta);
+      points += fmt::format("{:.5f} {:.5f} {:.5f} ", r * x, r * y, r * z);
+      directions += fmt::format("{:.5f} {:.5f} {:.5f} ", x, y, z);
+    }
+  for (int j = 0; j < rings; ++j)
+    for (int i = 0; i < segments; ++i) {
+      const int a = j * segments + i, b = j * segments + (i + 1) % segments;
+      if (j > 0) indices += fmt::format("{} {} {} ", a, b + segments, b);
+      if (j + 1 < rings) indices += fmt::format("{} {} {} ", a, a + segments, b + segments);
+    }
+  return "Shape \"mesh\" \"integer triindices\" [" + indices + "] \"point P\" [" + points + "]" +
+         (normals ? " \"normal N\" [" + directions + "]\n" : "\n");
+}
+
+}  // namespace
+
+std::string instances_text() {
+  std::string text = R"(
+LookAt 0 -3.4 0.1  0 0 -0.1  0 0 1
+Camera "perspective" "float fov" [45]
+Film "fleximage" "integer xresolution" [128] "integer yresolution" [64]
+PixelFilter "box"
+Sampler "lowdiscrepancy"
+SurfaceIntegrator "path" "integer maxdepth" [8]
+WorldBegin
+AttributeBegin
+AreaLightSource "area" "color L" [8 8 8]
+Shape "trianglemesh" "integer indices" [0 2 1 0 3 2]
+  "point P" [-0.3 -0.3 0.98  0.3 -0.3 0.98  0.3 0.3 0.98  -0.3 0.3 0.98]
+AttributeEnd
+Shape "trianglemesh" "integer indices" [0 1 2 0 2 3  4 6 5 4 7 6  3 2 6 3 6 7  0 3 7 0 7 4  1 5 6 1 6 2]
+  "point P" [-1 -1 -1  1 -1 -1  1 1 -1  -1 1 -1  -1 -1 1  1 -1 1  1 1 1  -1 1 1]
+)";
+  text += "ObjectBegin \"flat\"\n" + ball_text(11, 11, false) + "ObjectEnd\n";
+  text += "ObjectBegin \"smooth\"\n" + ball_text(23, 23, true) + "ObjectEnd\n";
+  int i = 0;
+  for (const double z : {-0.8, -0.3, 0.3})
+    for (int y = 0; y < 12; ++y)
+      for (int x = 0; x < 12; ++x, ++i)
+        text += fmt::format(
+            "AttributeBegin\nTranslate {:.4f} {:.4f} {:.4f}\nRotate {} 1 2 3\nScale .05 .07 .06\n"
+            "ObjectInstance \"{}\"\nAttributeEnd\n",
+            (x - 5.5) / 6.5, (y - 5.5) / 6.5, z, i * 37 % 360, i % 2 ? "smooth" : "flat");
+  return text + "WorldEnd\n";
+}
+
+namespace {
+
 bool draw(const KernelInputs& in, Dimension dimension, const PathState<ConstColumn>& paths,
           float* first, float* second, uint32_t n) {
   const auto kernel = in.kernels->draw[uint32_t(SamplerKind::kSobol)];
@@ -108,6 +167,7 @@ void record_camera(KernelInputs& in) {
   in.shadow_rays.resize(kRows * 2);
   for (auto* column : {&in.film_u, &in.film_v, &in.lens_u, &in.lens_v}) column->resize(kRows);
   in.bin.resize(kRows);
+  in.instance.resize(kRows);
   in.occluded.resize(kRows * 2);
   for (uint32_t i = 0; i < kRows; ++i)
     in.camera_samples.set(i, {(i / width % height) << 16 | i % width, i / (width * height), i});
@@ -136,8 +196,18 @@ bool record_hits(KernelInputs& in) {
                       kRows);
   k.intersect_planes(geometry.planes, geometry.triangles.count + geometry.spheres.count, rays,
                      in.camera_hits.columns(), kRows);
-  k.classify_hits(geometry.prim_bin, in.plan.first_lasting_bin, in.plan.transport.max_depth,
-                  in.camera_hits.view(), in.camera_paths.view().depth, in.bin.data(), kRows);
+  const uint32_t* const depth = in.camera_paths.view().depth;
+  if (in.plan.instances) {
+    if (!k.intersect_instances || !k.classify_instance_hits) return false;
+    k.intersect_instances(in.view.instances, rays, in.camera_hits.columns(), in.instance.data(),
+                          kRows, scratch_for(in));
+    k.classify_instance_hits(in.view.instances, geometry.prim_bin, in.plan.first_lasting_bin,
+                             in.plan.transport.max_depth, in.camera_hits.view(), in.instance.data(),
+                             depth, in.bin.data(), kRows);
+  } else {
+    k.classify_hits(geometry.prim_bin, in.plan.first_lasting_bin, in.plan.transport.max_depth,
+                    in.camera_hits.view(), depth, in.bin.data(), kRows);
+  }
   return true;
 }
 
@@ -156,10 +226,19 @@ bool record_bin(KernelInputs& in, uint32_t bin) {
   rows.paths.resize(kRows);
   rows.randoms.resize(kRows);
   rows.lights.resize(kRows);
-  const auto make_surfaces = in.kernels->make_surfaces[uint32_t(rows.bin.geometry)];
-  if (!make_surfaces) return false;
-  make_surfaces(in.view, rows.order.data(), in.camera_rays.view(), in.camera_hits.view(),
-                in.camera_paths.view(), rows.surfaces.columns(), rows.paths.columns(), kRows);
+  if (rows.bin.instanced) {
+    const auto make_surfaces =
+        in.kernels->make_instance_surfaces[rows.bin.geometry == GeometryKind::kTriangleVertex];
+    if (!make_surfaces) return false;
+    make_surfaces(in.view, rows.order.data(), in.camera_rays.view(), in.camera_hits.view(),
+                  in.instance.data(), in.camera_paths.view(), rows.surfaces.columns(),
+                  rows.paths.columns(), kRows);
+  } else {
+    const auto make_surfaces = in.kernels->make_surfaces[uint32_t(rows.bin.geometry)];
+    if (!make_surfaces) return false;
+    make_surfaces(in.view, rows.order.data(), in.camera_rays.view(), in.camera_hits.view(),
+                  in.camera_paths.view(), rows.surfaces.columns(), rows.paths.columns(), kRows);
+  }
   // A repeated row is another sample, and every row has its own slot.
   for (uint32_t i = 0; i < kRows; ++i) {
     rows.paths.columns().sample[i] = i / found;
@@ -208,7 +287,7 @@ void record_next_rays(KernelInputs& in) {
   }
 }
 
-std::unique_ptr<KernelInputs> record(const KernelTable& kernels, LightMask lights) {
+std::unique_ptr<KernelInputs> record(const KernelTable& kernels, const std::string& text) {
   auto in = std::make_unique<KernelInputs>();
   in->kernels = &kernels;
   ThreadPool pool(1);
@@ -217,8 +296,9 @@ std::unique_ptr<KernelInputs> record(const KernelTable& kernels, LightMask light
   });
   CompileOptions options;
   options.block_width = kernels.lanes;
-  in->scene = compile_scene(parse_scene(room_text(lights), "bench room", ".", diagnostics), options,
-                            pool, diagnostics);
+  options.instances = InstanceMode::kShare;
+  in->scene =
+      compile_scene(parse_scene(text, "bench room", ".", diagnostics), options, pool, diagnostics);
   in->view = in->scene.view();
   in->plan = make_plan(in->scene, kernels, PlanOptions{});
   record_camera(*in);
@@ -244,9 +324,9 @@ const ShadingRows* KernelInputs::emissive_rows() const {
     if (rows.bin.emissive) return &rows;
   return nullptr;
 }
-const ShadingRows* KernelInputs::rows_of(GeometryKind geometry) const {
+const ShadingRows* KernelInputs::rows_of(GeometryKind geometry, bool instanced) const {
   for (const ShadingRows& rows : bins)
-    if (rows.bin.geometry == geometry) return &rows;
+    if (rows.bin.geometry == geometry && rows.bin.instanced == instanced) return &rows;
   return nullptr;
 }
 const ShadingRows* KernelInputs::lit_rows() const {
@@ -256,16 +336,31 @@ const ShadingRows* KernelInputs::lit_rows() const {
 const KernelInputs& inputs_for(const KernelTable& kernels, LightMask lights) {
   static std::map<std::pair<const KernelTable*, LightMask>, std::unique_ptr<KernelInputs>> known;
   auto& entry = known[{&kernels, lights}];
-  if (!entry) entry = record(kernels, lights);
+  if (!entry) entry = record(kernels, room_text(lights));
   return *entry;
+}
+const KernelInputs& instance_inputs_for(const KernelTable& kernels) {
+  static std::map<const KernelTable*, std::unique_ptr<KernelInputs>> known;
+  auto& entry = known[&kernels];
+  if (!entry) entry = record(kernels, instances_text());
+  return *entry;
+}
+
+AlignedArray<uint32_t> sparse_order(const ShadingRows& rows, uint32_t share, uint32_t& n) {
+  AlignedArray<uint32_t> order(kRows);
+  n = 0;
+  for (uint32_t i = 0; i < kRows; ++i)
+    if (is_active(i, share)) order[n++] = rows.order[i];
+  return order;
 }
 
 Scratch scratch_for(const KernelInputs& inputs) {
   static AlignedArray<std::byte> memory;
-  const size_t bytes =
-      inputs.kernels->traversal_scratch_bytes
-          ? inputs.kernels->traversal_scratch_bytes(inputs.view.geometry.tree, kRows)
-          : 0;
+  const KernelTable& k = *inputs.kernels;
+  size_t bytes =
+      k.traversal_scratch_bytes ? k.traversal_scratch_bytes(inputs.view.geometry.tree, kRows) : 0;
+  if (inputs.plan.instances && k.instance_scratch_bytes)
+    bytes = std::max(bytes, k.instance_scratch_bytes(inputs.view.instances, kRows));
   if (memory.size() < bytes) memory.resize(bytes);
   return {memory.data(), memory.size()};
 }

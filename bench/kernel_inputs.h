@@ -21,6 +21,10 @@ inline constexpr LightMask kAllLights = (1u << uint32_t(LightKind::kCount)) - 1;
 /// A room with every material and every kind of shape, and the lights asked for, as .lxs text.
 std::string room_text(LightMask lights);
 
+/// A room of 432 small balls, of two objects that are stored once: one of 220 triangles, one of
+/// 1012 with vertex normals. As .lxs text.
+std::string instances_text();
+
 /// Rows that one kernel call gets.
 inline constexpr uint32_t kRows = 8192;
 
@@ -50,6 +54,7 @@ struct KernelInputs {
   Table<PathState> camera_paths;
   Table<Hit> camera_hits;
   AlignedArray<uint32_t> bin;
+  AlignedArray<uint32_t> instance;  ///< of the camera hits, where the scene has instances
   uint32_t camera_count = 0, bounce_count = 0, shadow_count = 0;
   std::vector<ShadingRows> bins;  ///< those with rows
   Table<ShadowRay> shadow_rays;
@@ -58,7 +63,7 @@ struct KernelInputs {
   /// Rows of the first bin that has this material, one that does not emit if there is one; or null.
   const ShadingRows* rows_of(MaterialKind material) const;
   const ShadingRows* emissive_rows() const;
-  const ShadingRows* rows_of(GeometryKind geometry) const;
+  const ShadingRows* rows_of(GeometryKind geometry, bool instanced = false) const;
   /// Rows of a bin that is lit: its material is not a delta one.
   const ShadingRows* lit_rows() const;
 };
@@ -66,7 +71,14 @@ struct KernelInputs {
 /// Recorded once per table and light mask.
 const KernelInputs& inputs_for(const KernelTable& kernels, LightMask lights);
 
-/// Memory for the traversal kernels over this scene, for kRows rays.
+/// The same of the scene with instances.
+const KernelInputs& instance_inputs_for(const KernelTable& kernels);
+
+/// The recorded turn's rows are as sparse in the batch as the share says: every row of a bin that
+/// holds a quarter of the batch lies four rows from the next.
+AlignedArray<uint32_t> sparse_order(const ShadingRows& rows, uint32_t share, uint32_t& n);
+
+/// Memory for the traversal kernels over this scene and its instances, for kRows rays.
 Scratch scratch_for(const KernelInputs& inputs);
 
 }  // namespace yat::bench
