@@ -44,6 +44,10 @@ template <class A>
 YAT_INLINE Spectrum<A> only(const Mask<A>& m, const Spectrum<A>& c) {
   return {only<A>(m, c.r), only<A>(m, c.g), only<A>(m, c.b)};
 }
+template <class A>
+YAT_INLINE Spectrum<A> select(const Mask<A>& m, const Spectrum<A>& a, const Spectrum<A>& b) {
+  return {xsimd::select(m, a.r, b.r), xsimd::select(m, a.g, b.g), xsimd::select(m, a.b, b.b)};
+}
 
 /// Where a surface is seen from.
 template <class A>

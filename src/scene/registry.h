@@ -14,11 +14,14 @@
 
 // clang-format off
 #define YAT_MATERIALS(YAT_MATERIAL) \
-  YAT_MATERIAL(matte,      Matte)     \
-  YAT_MATERIAL(oren_nayar, OrenNayar) \
-  YAT_MATERIAL(mirror,     Mirror)    \
-  YAT_MATERIAL(glass,      Glass)     \
-  YAT_MATERIAL(null,       Null)
+  YAT_MATERIAL(matte,             Matte)            \
+  YAT_MATERIAL(oren_nayar,        OrenNayar)        \
+  YAT_MATERIAL(matte_translucent, MatteTranslucent) \
+  YAT_MATERIAL(velvet,            Velvet)           \
+  YAT_MATERIAL(scatter,           Scatter)          \
+  YAT_MATERIAL(mirror,            Mirror)           \
+  YAT_MATERIAL(glass,             Glass)            \
+  YAT_MATERIAL(null,              Null)
 // clang-format on
 
 namespace yat {
