@@ -97,7 +97,7 @@ inline std::vector<Case<ScatterParameters>> cases(ScatterParameters<Value>) {
     };
   };
   std::vector<Case<ScatterParameters>> all;
-  for (const float g : {0.f, .5f, -.7f})
+  for (const float g : {0.f, .5f, -.5f})
     all.push_back({"g " + std::to_string(g), {1, .5f, 0, g}, phase(double(g)), 1, false});
   return all;
 }

@@ -4,3 +4,5 @@ yat_test(renders LABELS render statistics per_isa LIBS yat_wavefront SOURCES tes
 yat_test(determinism LABELS render per_isa LIBS yat_wavefront SOURCES test_determinism.cpp)
 yat_test(oracle LABELS render statistics per_isa LIBS yat_wavefront SOURCES test_oracle.cpp)
 yat_test(spawned_rays LABELS fast per_isa LIBS yat_wavefront SOURCES test_spawned_rays.cpp)
+yat_test(material_renders LABELS render statistics per_isa LIBS yat_wavefront
+         SOURCES test_material_renders.cpp)

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <numbers>
 
 #include "kernels/materials/all.h"
 #include "scene_builder.h"
@@ -44,7 +43,7 @@ TEST_F(CompileMaterials, EachKindHasItsRow) {
   EXPECT_EQ(matte.kd_b, .3f);
   const auto rough = row_of<OrenNayarParameters>(with(plugin("matte", {number("sigma", 90)})),
                                                  MaterialKind::kOrenNayar);
-  EXPECT_FLOAT_EQ(rough.sigma, float(std::numbers::pi / 2));
+  EXPECT_EQ(rough.sigma, 90);
   EXPECT_FLOAT_EQ(rough.kd_r, .9f);
   const auto mirror = row_of<MirrorParameters>(with(plugin("mirror", {})), MaterialKind::kMirror);
   EXPECT_EQ(mirror.kr_g, 1);
@@ -110,6 +109,53 @@ TEST_F(CompileMaterials, ColoursAreClampedWithOneWarning) {
   EXPECT_EQ(all_said(),
             "scene.lxs:11:2: warning: \"Kd\" of material \"matte\" is 2 -1 0.5: clamped to "
             "0..1\n");
+}
+
+TEST_F(CompileMaterials, Diffuse) {
+  const auto sheet = row_of<MatteTranslucentParameters>(
+      with(plugin("mattetranslucent",
+                  {color("Kr", .5f, .25f, 0), color("Kt", .5f, 0, 1), number("sigma", 20)})),
+      MaterialKind::kMatteTranslucent);
+  EXPECT_EQ(sheet.kr_g, .25f);
+  EXPECT_EQ(sheet.kt_b, 1);
+  EXPECT_EQ(sheet.sigma, 20);
+  EXPECT_EQ(sheet.conserve, 0);
+  const auto velvet = row_of<VelvetParameters>(
+      with(plugin("velvet", {number("p2", 10), number("thickness", .5f)})), MaterialKind::kVelvet);
+  EXPECT_FLOAT_EQ(velvet.kd_r, .3f);
+  EXPECT_EQ(velvet.p1, -2);
+  EXPECT_EQ(velvet.p2, 10);
+  EXPECT_EQ(velvet.p3, 2);
+  EXPECT_EQ(velvet.thickness, .5f);
+  const auto scatter = row_of<ScatterParameters>(
+      with(plugin("scatter", {color("g", .5f, .5f, .5f)})), MaterialKind::kScatter);
+  EXPECT_FLOAT_EQ(scatter.kd_b, .9f);
+  EXPECT_EQ(scatter.g, .5f);
+  EXPECT_SILENT();
+}
+
+TEST_F(CompileMaterials, DiffuseWithSomethingToSay) {
+  Scene scene = with(plugin("mattetranslucent", {}));
+  EXPECT_SAID(
+      "scene.lxs:10:1: note: \"Kr\" and \"Kt\" of material \"mattetranslucent\" are 2 2 2 "
+      "together: "
+      "it scatters more light than it gets, as in LuxRender without \"energyconserving\"");
+  scene =
+      with(plugin("mattetranslucent", {text("energyconserving", "true", ParameterType::kBool)}));
+  EXPECT_EQ(row_of<MatteTranslucentParameters>(scene, MaterialKind::kMatteTranslucent).conserve, 1);
+  with(plugin("velvet", {number("thickness", 2)}));
+  EXPECT_SAID(
+      "scene.lxs:11:2: warning: \"thickness\" of material \"velvet\" is 2: clamped to 0..1");
+  with(plugin("scatter", {color("g", .3f, 0, 0)}));
+  EXPECT_SAID("scene.lxs:11:2: warning: \"g\" is one number for all colours here: 0.1 is used");
+  scene = with(plugin("cloth", {color("warp_Kd", .5f, .25f, 0), color("weft_Kd", .5f, .75f, 1),
+                                number("repeat_u", 10)}));
+  const auto kd = row_of<MatteParameters>(scene, MaterialKind::kMatte);
+  EXPECT_EQ(glm::vec3(kd.kd_r, kd.kd_g, kd.kd_b), glm::vec3(.5f));
+  EXPECT_SAID(
+      "scene.lxs:10:1: warning: material \"cloth\" has no weave: rendered as matte with the mean "
+      "of \"warp_Kd\" and \"weft_Kd\", 0.5 0.5 0.5");
+  EXPECT_EQ(messages.size(), 4u) << all_said();
 }
 
 TEST_F(CompileMaterials, Unsupported) {

@@ -251,7 +251,7 @@ TEST_P(Materials, FurnaceIsNeverBrighterThanItsLight) {
 TEST_P(Materials, SamplesFollowTheirDensity) {
   const KernelTable& k = kernels();
   constexpr int kRows = 21, kColumns = 40, kSub = 6;
-  constexpr uint32_t n = 1 << 19, kGrid = kRows * kColumns * kSub * kSub;
+  constexpr uint32_t n = 1 << 17, kGrid = kRows * kColumns * kSub * kSub;
   const double cosines[] = {1, .6, .2, .01, -.5};
   AlignedArray<float> u(n), v(n), lobe(n);
   for (uint32_t i = 0; i < n; ++i) {

@@ -129,7 +129,7 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
     const bool outside = glm::dot(hit->ng, wo) > 0;
     const Vec ng = outside ? hit->ng : -hit->ng, turned = outside ? hit->ns : -hit->ns;
     const Axes axes(glm::dot(turned, wo) > 0 ? turned : ng);
-    const Bsdf bsdf(scene, material, hit->parameter, axes.to_local(wo), outside);
+    const Bsdf bsdf(scene, material, hit->parameter, {axes.to_local(wo), outside});
     const auto leave = [&](const Vec& wi) {
       return hit->position + (glm::dot(ng, wi) > 0 ? 1.0 : -1.0) * hit->offset * ng;
     };

@@ -1,9 +1,9 @@
+// Lights of the oracle.
+
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
-#include "kernels/materials/all.h"
 #include "wavefront/reference_parts.h"
 
 namespace yat::reference {
@@ -11,99 +11,6 @@ namespace yat::reference {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-template <template <template <class> class> class Record>
-Record<Value> parameters(const Scene& scene, MaterialKind kind, uint32_t row) {
-  const uint32_t* words = scene.parameters[uint32_t(kind)].data() + size_t(row) * row_words<Record>;
-  Record<Value> out;
-  for_each_field([&](auto index, auto& field) { std::memcpy(&field, words + index, 4); }, out);
-  return out;
-}
-
-/// Oren, Nayar 1994 as in lxs 7.2, with its angles.
-double oren_nayar(double sigma, const Vec& wo, const Vec& wi) {
-  const double s2 = sigma * sigma;
-  const double a = 1 - s2 / (2 * (s2 + .33)), b = .45 * s2 / (s2 + .09);
-  const double theta_o = std::acos(std::clamp(wo.z, 0.0, 1.0));
-  const double theta_i = std::acos(std::clamp(wi.z, 0.0, 1.0));
-  const double phi = std::atan2(wo.y, wo.x) - std::atan2(wi.y, wi.x);
-  return a + b * std::fmax(0, std::cos(phi)) * std::sin(std::fmax(theta_o, theta_i)) *
-                 std::tan(std::fmin(theta_o, theta_i));
-}
-
-double largest(const Vec& c) {
-  return std::fmax(c.x, std::fmax(c.y, c.z));
-}
-
-}  // namespace
-
-Vec Bsdf::evaluate(const Vec& wi) const {
-  if (wi.z <= 0) return Vec(0.0);
-  if (kind_ == MaterialKind::kMatte) {
-    const auto p = parameters<MatteParameters>(scene_, kind_, row_);
-    return Vec(p.kd_r, p.kd_g, p.kd_b) / kPi;
-  }
-  if (kind_ == MaterialKind::kOrenNayar) {
-    const auto p = parameters<OrenNayarParameters>(scene_, kind_, row_);
-    return Vec(p.kd_r, p.kd_g, p.kd_b) / kPi * oren_nayar(double(p.sigma), wo_, wi);
-  }
-  return Vec(0.0);
-}
-
-double Bsdf::pdf(const Vec& wi) const {
-  return material_traits(kind_).delta ? 0 : std::fmax(wi.z, 0) / kPi;
-}
-
-Bounce Bsdf::sample(double lobe, double u, double v) const {
-  switch (kind_) {
-    case MaterialKind::kMatte:
-    case MaterialKind::kOrenNayar: {
-      const Vec wi = cosine_hemisphere(u, v);
-      if (wi.z <= 0) return {wi, Vec(0.0), 0};
-      return {wi, evaluate(wi) * kPi, wi.z / kPi};
-    }
-    case MaterialKind::kMirror: {
-      const auto p = parameters<MirrorParameters>(scene_, kind_, row_);
-      return {{-wo_.x, -wo_.y, wo_.z}, {p.kr_r, p.kr_g, p.kr_b}, 0};
-    }
-    case MaterialKind::kGlass:
-      return sample_glass(lobe);
-    case MaterialKind::kNull:
-    case MaterialKind::kCount:
-      break;
-  }
-  return {-wo_, Vec(1.0), 0};
-}
-
-/// Snell's law and Fresnel's equations in their amplitudes.
-Bounce Bsdf::sample_glass(double lobe) const {
-  const auto p = parameters<GlassParameters>(scene_, kind_, row_);
-  const double n_here = outside_ ? 1 : double(p.index), n_there = outside_ ? double(p.index) : 1;
-  const double sin_here = std::sqrt(wo_.x * wo_.x + wo_.y * wo_.y);
-  const double sin_there = n_here / n_there * sin_here;
-  double reflectance = 1, cos_there = 0;
-  if (sin_there < 1 && wo_.z > 0) {
-    cos_there = std::sqrt(1 - sin_there * sin_there);
-    const double rs =
-        (n_here * wo_.z - n_there * cos_there) / (n_here * wo_.z + n_there * cos_there);
-    const double rp =
-        (n_there * wo_.z - n_here * cos_there) / (n_there * wo_.z + n_here * cos_there);
-    reflectance = (rs * rs + rp * rp) / 2;
-  }
-  const Vec reflected = reflectance * Vec(p.kr_r, p.kr_g, p.kr_b);
-  const Vec refracted = (1 - reflectance) * Vec(p.kt_r, p.kt_g, p.kt_b);
-  const double total = largest(reflected) + largest(refracted);
-  if (total == 0) return {{-wo_.x, -wo_.y, wo_.z}, Vec(0.0), 0};
-  const double chance = largest(reflected) / total;
-  if (lobe < chance) return {{-wo_.x, -wo_.y, wo_.z}, reflected / chance, 0};
-  const double ratio = n_here / n_there;
-  return {
-      {-ratio * wo_.x, -ratio * wo_.y, -cos_there}, refracted * (ratio * ratio / (1 - chance)), 0};
-}
-
-// ---- Lights ------------------------------------------------------------------------------------
-
-namespace {
 
 Vec axis_a(const LightRow<Value>& row) {
   return {row.a_x, row.a_y, row.a_z};

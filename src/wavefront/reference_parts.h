@@ -50,8 +50,7 @@ Vec cosine_hemisphere(double u, double v);
 /// Uniform in the cone with 1 - cos(half angle) = measure.
 Vec cone(double measure, double u, double v);
 
-// ---- Materials
-// -----------------------------------------------------------------------------------
+// ---- Materials: reference_materials.h ----------------------------------------------------------
 
 struct Bounce {
   Vec wi;          ///< local
@@ -59,23 +58,26 @@ struct Bounce {
   double pdf = 0;  ///< solid angle; 0: delta
 };
 
-/// A material row seen from wo (local, wo.z >= 0).
+/// Where a surface is seen from.
+struct LocalView {
+  Vec wo;  ///< local, wo.z >= 0
+  bool outside;
+};
+
+/// A material row seen from somewhere.
 class Bsdf {
  public:
-  Bsdf(const Scene& scene, MaterialKind kind, uint32_t row, const Vec& wo, bool outside)
-      : scene_(scene), kind_(kind), row_(row), wo_(wo), outside_(outside) {}
+  Bsdf(const Scene& scene, MaterialKind kind, uint32_t row, const LocalView& view)
+      : scene_(scene), kind_(kind), row_(row), view_(view) {}
   Vec evaluate(const Vec& wi) const;
   double pdf(const Vec& wi) const;
   Bounce sample(double lobe, double u, double v) const;
 
  private:
-  Bounce sample_glass(double lobe) const;
-
   const Scene& scene_;
   MaterialKind kind_;
   uint32_t row_;
-  Vec wo_;
-  bool outside_;
+  LocalView view_;
 };
 
 // ---- Lights

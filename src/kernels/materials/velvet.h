@@ -40,7 +40,8 @@ struct Velvet {
     const Float<A> series = one + p.p1 * c + p.p2 * half * (three * c2 - one) +
                             p.p3 * half * c * (Float<A>(5.f) * c2 - three);
     const Float<A> scattered = series * p.thickness * Float<A>(kInvPi / 4);
-    return xsimd::select(scattered > zero, xsimd::min(scattered / wo.z, one), zero);
+    // wo.z may be -0.
+    return xsimd::select(scattered > zero, xsimd::min(scattered / xsimd::abs(wo.z), one), zero);
   }
 
   static YAT_INLINE Spectrum<A> evaluate(const Parameters& p, const BsdfView<A>& view,

@@ -1,0 +1,38 @@
+#pragma once
+// Materials of the oracle. For each record NAMEParameters there are overloads
+//
+//   Vec evaluate(const NAMEParameters<Value>&, const LocalView&, const Vec& wi)   f, no cosine
+//   double pdf(const NAMEParameters<Value>&, const LocalView&, const Vec& wi)
+//   Bounce sample(const NAMEParameters<Value>&, const LocalView&, double lobe, double u, double v)
+//
+// of which delta materials have the last one only. Formulas are those of textbooks and of the scene
+// format, not those of the kernels.
+
+#include "kernels/materials/all.h"
+#include "wavefront/reference_parts.h"
+
+namespace yat::reference {
+
+double largest(const Vec& c);
+/// Oren, Nayar 1994 as in lxs 7.2: f pi / Kd; sigma in degrees, both directions above the surface.
+double oren_nayar(double sigma, const Vec& wo, const Vec& wi);
+Vec mirrored(const Vec& wo);
+
+// reference_materials.cpp
+Bounce sample(const MirrorParameters<Value>&, const LocalView&, double, double, double);
+Bounce sample(const GlassParameters<Value>&, const LocalView&, double lobe, double, double);
+Bounce sample(const NullParameters<Value>&, const LocalView&, double, double, double);
+
+// reference_diffuse.cpp
+#define YAT_REFERENCE(Type)                                                      \
+  Vec evaluate(const Type##Parameters<Value>&, const LocalView&, const Vec& wi); \
+  double pdf(const Type##Parameters<Value>&, const LocalView&, const Vec& wi);   \
+  Bounce sample(const Type##Parameters<Value>&, const LocalView&, double lobe, double u, double v);
+YAT_REFERENCE(Matte)
+YAT_REFERENCE(OrenNayar)
+YAT_REFERENCE(MatteTranslucent)
+YAT_REFERENCE(Velvet)
+YAT_REFERENCE(Scatter)
+#undef YAT_REFERENCE
+
+}  // namespace yat::reference
