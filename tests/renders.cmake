@@ -6,3 +6,4 @@ yat_test(oracle LABELS render statistics per_isa LIBS yat_wavefront SOURCES test
 yat_test(spawned_rays LABELS fast per_isa LIBS yat_wavefront SOURCES test_spawned_rays.cpp)
 yat_test(material_renders LABELS render statistics per_isa LIBS yat_wavefront
          SOURCES test_material_renders.cpp)
+yat_test(features LABELS render per_isa LIBS yat_wavefront SOURCES test_features.cpp)

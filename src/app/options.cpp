@@ -48,6 +48,9 @@ constexpr OptionText kRenderOptions[] = {
     {"--tonemap", "NAME", "the film's",
      "linear, reinhard, autolinear, maxwhite or contrast; for .png and .jpg"},
     {"--exposure", "STOPS", "0", "brighten .png and .jpg by 2^STOPS before tone mapping"},
+    {"--aov", "LIST", "none",
+     "feature pictures into the .exr, comma-separated: albedo, normal, geometric_normal, depth, "
+     "position, uv, direct, indirect, variance, sample_count, or all"},
     {"--stats", "FILE", "none", "write what was done and how long it took as JSON"},
     {"--trace", "FILE", "none", "write the stages of each thread over time as Chrome trace events"},
     {"--progress", "auto|bar|plain|json|none", "auto",
@@ -153,7 +156,7 @@ std::array<T, N> numbers(std::string_view option, std::string_view text, char se
 /// Text of every option as given; read into Arguments once all are known.
 struct Given {
   std::string spp, samples_range, time, threads, integrator, max_depth, sampler, colour, seed,
-      resolution, crop, instances, tree, tone_map, exposure, progress;
+      resolution, crop, instances, tree, tone_map, exposure, aov, progress;
   bool verbose = false, quiet = false;
 };
 
@@ -208,6 +211,7 @@ void add_render(Adder& add, Arguments& arguments, Given& given) {
   add("--seed", given.seed);
   add("--tonemap", given.tone_map);
   add("--exposure", given.exposure);
+  add("--aov", given.aov);
   add("--stats", arguments.stats_file);
   add("--trace", arguments.trace_file);
   add("--progress", given.progress);
@@ -263,6 +267,7 @@ void read_given(const Given& given, Arguments& to) {
   if (!given.tone_map.empty()) to.tone_map = by_name("--tonemap", given.tone_map, kToneMaps);
   if (!given.exposure.empty())
     to.exposure_stops = number<float>("--exposure", given.exposure, given.exposure, -100.f, 100.f);
+  if (!given.aov.empty()) to.features = parse_features("--aov", given.aov);
   if (!given.progress.empty()) to.progress = by_name("--progress", given.progress, kProgressKinds);
   if (given.verbose && given.quiet) throw UsageError("-v and -q exclude each other");
   to.verbosity = given.quiet     ? Verbosity::kQuiet

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "film/features.h"
 #include "film/settings.h"
 #include "scene/colour_model.h"
 #include "scene/compile.h"
@@ -58,6 +59,7 @@ struct Arguments {
   std::string isa;
   std::optional<ToneMap> tone_map;
   float exposure_stops = 0;
+  FeatureSet features = 0;
   std::string stats_file, trace_file;
   ProgressKind progress = ProgressKind::kAuto;
   Verbosity verbosity = Verbosity::kNormal;

@@ -101,8 +101,8 @@ uint32_t next_pass_size(const PassLimits& limits, uint32_t first, uint64_t pixel
 }
 
 RenderTotals render_passes(const Scene& scene, const Plan& plan, const PassLimits& limits,
-                           bool trace, ThreadPool& pool, Film& film, Progress& progress,
-                           std::atomic<bool>& stop) {
+                           bool trace, ThreadPool& pool, Film& film, FeatureFilm* features,
+                           Progress& progress, std::atomic<bool>& stop) {
   RenderTotals totals;
   const uint64_t pixels = uint64_t(film.width()) * film.height();
   const Clock::time_point start = Clock::now();
@@ -141,6 +141,7 @@ RenderTotals render_passes(const Scene& scene, const Plan& plan, const PassLimit
       options.first_sample = first;
       options.end_sample = first + size;
       options.trace = trace;
+      options.features = features;
       options.stop = &stop;
       const uint64_t paths_before = totals.stats.paths, rays_before = rays_of(totals.stats);
       options.progress = [&](uint64_t paths, const RenderStats& so_far) {

@@ -41,10 +41,10 @@ struct RenderTotals {
   bool timed_out = false;
 };
 
-/// Renders into `film` until the samples are done, the time is up or `stop` is set (which the time
-/// limit does, too).
+/// Renders into `film` (and `features`, which may be null) until the samples are done, the time is
+/// up or `stop` is set (which the time limit does, too).
 RenderTotals render_passes(const Scene& scene, const Plan& plan, const PassLimits& limits,
-                           bool trace, ThreadPool& pool, Film& film, Progress& progress,
-                           std::atomic<bool>& stop);
+                           bool trace, ThreadPool& pool, Film& film, FeatureFilm* features,
+                           Progress& progress, std::atomic<bool>& stop);
 
 }  // namespace yat

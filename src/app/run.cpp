@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -9,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <new>
+#include <optional>
 
 #include "app/build_info.h"
 #include "app/console.h"
@@ -106,10 +108,11 @@ void print(std::string_view text) {
 
 /// Asks before the memory is touched: a system that lends more than it has would end the program
 /// in the middle of the work.
-void require_film_memory(const FilmSettings& film) {
+void require_film_memory(const FilmSettings& film, FeatureSet features) {
   // Sums, the mean picture, its tone mapped copy and its bytes in a file.
   const uint64_t pixels = uint64_t(film.crop_width()) * film.crop_height();
-  const uint64_t needed = pixels * (sizeof(FilmPixel) + 12 + 12 + 12);
+  const uint64_t pictures = 1 + uint64_t(std::popcount(features));
+  const uint64_t needed = pixels * (pictures * (sizeof(FilmPixel) + 12 + 12) + 12);
   const uint64_t there = available_memory_bytes();
   if (there && needed > there)
     throw ResourceError(fmt::format(
@@ -120,11 +123,16 @@ void require_film_memory(const FilmSettings& film) {
 }
 
 /// Checks before the work what would only fail after it.
-void check_outputs(const std::vector<std::string>& outputs) {
-  for (const std::string& output : outputs)
+void check_outputs(const Arguments& arguments) {
+  bool features_kept = false;
+  for (const std::string& output : arguments.outputs) {
     if (!is_picture_name(output))
       throw UsageError(
           fmt::format("-o {}: unknown kind of picture; choose .png, .exr or .jpg", output));
+    features_kept = features_kept || keeps_features(output);
+  }
+  if (arguments.features && !features_kept)
+    throw UsageError("--aov: feature pictures are written into .exr files; add -o FILE.exr");
 }
 
 void tell_end(Console& console, const RenderReport& report, const Diagnostics& diagnostics,
@@ -162,7 +170,7 @@ RenderReport report_of(const Arguments& arguments, const Loaded& loaded, const T
   return report;
 }
 
-void write_pictures(const RenderReport& report, const Film& film) {
+void write_pictures(const RenderReport& report, const Film& film, const FeatureFilm* features) {
   PictureMetadata metadata;
   metadata.scene = report.scene;
   metadata.scene_hash = report.scene_hash;
@@ -172,12 +180,17 @@ void write_pictures(const RenderReport& report, const Film& film) {
   metadata.isa = report.isa;
   metadata.version = kBuildInfo.version;
   const std::vector<float> rgb = film.resolve();
+  std::vector<PictureLayer> layers;
+  for (uint32_t f = 0; features && f < kFeatures; ++f)
+    if (features->has(Feature(f)))
+      layers.push_back(
+          {std::string(feature_info(Feature(f)).channels), features->resolve(Feature(f), film)});
   for (const std::string& output : report.outputs)
-    write_picture(output, rgb, film.width(), film.height(), report.film, metadata);
+    write_picture(output, rgb, film.width(), film.height(), report.film, metadata, layers);
 }
 
 ExitCode render_command(const Arguments& arguments, Console& console) {
-  check_outputs(arguments.outputs);
+  check_outputs(arguments);
   const KernelTable& kernels = select_kernels(arguments.isa);
   ThreadPool pool(arguments.threads);
   Diagnostics diagnostics(sink_for(console, arguments.verbosity));
@@ -192,9 +205,11 @@ ExitCode render_command(const Arguments& arguments, Console& console) {
   for (const std::string& file : {arguments.stats_file, arguments.trace_file})
     if (!file.empty()) require_writable(file);
 
-  require_film_memory(report.film);
+  require_film_memory(report.film, arguments.features);
   Film film(report.film.crop_width(), report.film.crop_height());
-  report.film_bytes = film.bytes();
+  std::optional<FeatureFilm> features;
+  if (arguments.features) features.emplace(film.width(), film.height(), arguments.features);
+  report.film_bytes = film.bytes() + (features ? features->bytes() : 0);
   {
     InterruptGuard guard;
     // Errors and the end of an interrupted render are all that -q lets through.
@@ -203,9 +218,9 @@ ExitCode render_command(const Arguments& arguments, Console& console) {
             ? ProgressKind::kSilent
             : arguments.progress;
     Progress progress(console, kind);
-    report.totals =
-        render_passes(loaded.scene, loaded.plan, pass_limits(arguments, report.film),
-                      !arguments.trace_file.empty(), pool, film, progress, guard.stop());
+    report.totals = render_passes(loaded.scene, loaded.plan, pass_limits(arguments, report.film),
+                                  !arguments.trace_file.empty(), pool, film,
+                                  features ? &*features : nullptr, progress, guard.stop());
     report.interrupted = guard.interrupted();
     report.time.render = report.totals.seconds;
     report.samples = film.total_samples();
@@ -224,7 +239,7 @@ ExitCode render_command(const Arguments& arguments, Console& console) {
     }
     // Still guarded: a second Ctrl-C ends a slow write.
     Stopwatch watch;
-    write_pictures(report, film);
+    write_pictures(report, film, features ? &*features : nullptr);
     report.time.write = watch.lap();
   }
   tell_end(console, report, diagnostics, arguments.verbosity);

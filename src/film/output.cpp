@@ -70,8 +70,10 @@ void describe(OIIO::ImageSpec& spec, const PictureMetadata& m) {
                   m.scene_hash, m.seed, m.samples_per_pixel, m.render_seconds, m.isa));
 }
 
-OIIO::ImageSpec exr_spec(uint32_t width, uint32_t height, const FilmSettings& settings) {
-  OIIO::ImageSpec spec(int(width), int(height), 3, OIIO::TypeDesc::FLOAT);
+OIIO::ImageSpec exr_spec(uint32_t width, uint32_t height, const FilmSettings& settings,
+                         const std::vector<std::string>& channels) {
+  OIIO::ImageSpec spec(int(width), int(height), int(channels.size()), OIIO::TypeDesc::FLOAT);
+  spec.channelnames = channels;
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
   // CIE xy of Rec.709: red, green, blue, white.
@@ -100,14 +102,53 @@ std::vector<unsigned char> encode(Format format, const OIIO::ImageSpec& spec, OI
   return bytes;
 }
 
+std::vector<std::string> split_names(std::string_view names) {
+  std::vector<std::string> list;
+  for (size_t begin = 0; begin <= names.size();) {
+    const size_t end = std::min(names.find(',', begin), names.size());
+    list.emplace_back(names.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return list;
+}
+
+/// R, G, B and the layers, interleaved, and the names of all channels.
+std::vector<float> with_layers(std::span<const float> rgb, std::span<const PictureLayer> layers,
+                               std::vector<std::string>& channels) {
+  channels = {"R", "G", "B"};
+  std::vector<size_t> width;
+  for (const PictureLayer& layer : layers) {
+    const std::vector<std::string> names = split_names(layer.channels);
+    channels.insert(channels.end(), names.begin(), names.end());
+    width.push_back(names.size());
+  }
+  const size_t pixels = rgb.size() / 3;
+  std::vector<float> all;
+  all.reserve(pixels * channels.size());
+  for (size_t i = 0; i < pixels; ++i) {
+    all.insert(all.end(), rgb.begin() + std::ptrdiff_t(3 * i),
+               rgb.begin() + std::ptrdiff_t(3 * i + 3));
+    for (size_t l = 0; l < layers.size(); ++l) {
+      const float* const values = &layers[l].values.at(i * width[l]);
+      all.insert(all.end(), values, values + width[l]);
+    }
+  }
+  return all;
+}
+
 }  // namespace
+
+bool keeps_features(std::string_view path) {
+  return format_of(path) == Format::kExr;
+}
 
 bool is_picture_name(std::string_view path) {
   return format_of(path) != Format::kNone;
 }
 
 void write_picture(const std::string& path, std::span<const float> rgb, uint32_t width,
-                   uint32_t height, const FilmSettings& settings, const PictureMetadata& metadata) {
+                   uint32_t height, const FilmSettings& settings, const PictureMetadata& metadata,
+                   std::span<const PictureLayer> layers) {
   const Format format = format_of(path);
   if (format == Format::kNone)
     throw UsageError(fmt::format("{}: pictures are written as .exr, .png, .jpg or .jpeg", path));
@@ -118,9 +159,11 @@ void write_picture(const std::string& path, std::span<const float> rgb, uint32_t
   std::vector<unsigned char> file;
   try {
     if (format == Format::kExr) {
-      OIIO::ImageSpec spec = exr_spec(width, height, settings);
+      std::vector<std::string> channels;
+      const std::vector<float> all = with_layers(rgb, layers, channels);
+      OIIO::ImageSpec spec = exr_spec(width, height, settings, channels);
       describe(spec, metadata);
-      file = encode(format, spec, OIIO::TypeDesc::FLOAT, rgb.data());
+      file = encode(format, spec, OIIO::TypeDesc::FLOAT, all.data());
     } else {
       const std::vector<float> display = tone_map(rgb, settings);
       std::vector<uint8_t> bytes(display.size());

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "film/settings.h"
 
@@ -23,10 +24,20 @@ struct PictureMetadata {
 
 /// Whether the extension is one that write_picture knows (.exr .png .jpg .jpeg).
 bool is_picture_name(std::string_view path);
+/// Whether files of this name can hold more than the picture (.exr).
+bool keeps_features(std::string_view path);
 
-/// rgb: width * height * 3, linear Rec.709. Missing folders are made. Throws ResourceError when the
-/// file cannot be written, UsageError for an unknown extension.
+/// Further channels of a picture, interleaved: width * height * (number of names) floats.
+struct PictureLayer {
+  std::string channels;  ///< names, comma-separated
+  std::vector<float> values;
+};
+
+/// rgb: width * height * 3, linear Rec.709. layers: written into .exr only, after R, G and B.
+/// Missing folders are made. Throws ResourceError when the file cannot be written, UsageError for
+/// an unknown extension.
 void write_picture(const std::string& path, std::span<const float> rgb, uint32_t width,
-                   uint32_t height, const FilmSettings& settings, const PictureMetadata& metadata);
+                   uint32_t height, const FilmSettings& settings, const PictureMetadata& metadata,
+                   std::span<const PictureLayer> layers = {});
 
 }  // namespace yat

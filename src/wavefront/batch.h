@@ -6,7 +6,8 @@
 //   hits, bin, order  row for row with the pair that is read; order lists its rows bin by bin
 //   chunk             a few hundred rows of one bin while they are shaded: stays in the L1 cache
 //   shadow            shadow rays of this turn
-//   sums              one row per slot, a slot per path under way
+//   sums              one row per slot, a slot per path under way (two with parts of the light
+//   wanted)
 //
 // Columns are indexed by row, except sums, slot_sample (by slot).
 
@@ -25,7 +26,8 @@ namespace yat {
 inline constexpr uint32_t kChunkRows = 256;
 
 struct Batch {
-  Batch(const Scene& scene, const Plan& plan, uint32_t batch_rows)
+  /// sums_per_path: rows of SampleSum that each path has (FeatureRecorder).
+  Batch(const Scene& scene, const Plan& plan, uint32_t batch_rows, uint32_t sums_per_path)
       : rows(batch_rows),
         hits(batch_rows),
         instance(plan.instances ? batch_rows : 0),
@@ -33,7 +35,7 @@ struct Batch {
         order(batch_rows),
         shadow(batch_rows),
         occluded(batch_rows),
-        sums(batch_rows),
+        sums(batch_rows * sums_per_path),
         slot_sample(batch_rows),
         free_slots(batch_rows),
         finished(batch_rows),

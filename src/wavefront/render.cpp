@@ -75,9 +75,14 @@ void run_worker(Shared& shared, uint32_t index) {
   // Where units share pixels every worker adds to a film of its own, merged at the end: the sums
   // are exact, so the picture is the same.
   std::optional<Film> own_film;
-  if (shared.work.shares_pixels()) own_film.emplace(shared.film.width(), shared.film.height());
+  std::optional<FeatureFilm> own_features;
+  FeatureFilm* const features = shared.options.features;
+  if (shared.work.shares_pixels()) {
+    own_film.emplace(shared.film.width(), shared.film.height());
+    if (features) own_features.emplace(shared.film.width(), shared.film.height(), features->set());
+  }
   Worker worker(shared.scene, shared.plan, shared.batch_rows, shared.options.trace,
-                own_film ? *own_film : shared.film);
+                own_film ? *own_film : shared.film, own_features ? &*own_features : features);
   WorkCursor cursor;
   cursor.start(*unit);
   for (;;) {
@@ -114,6 +119,7 @@ void run_worker(Shared& shared, uint32_t index) {
   if (shared.options.progress)
     shared.options.progress(shared.result.stats.paths, shared.result.stats);
   if (own_film) shared.film.merge(*own_film);
+  if (own_features) features->merge(*own_features);
   shared.result.scratch_bytes += worker.bytes() + (own_film ? own_film->bytes() : 0);
   for (TraceSpan& span : worker.clock().spans()) {
     span.worker = index;

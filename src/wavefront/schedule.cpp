@@ -4,13 +4,15 @@
 
 namespace yat {
 
-Worker::Worker(const Scene& scene, const Plan& plan, uint32_t batch_rows, bool trace, Film& film)
+Worker::Worker(const Scene& scene, const Plan& plan, uint32_t batch_rows, bool trace, Film& film,
+               FeatureFilm* features)
     : scene_(scene),
       view_(scene.view()),
       plan_(plan),
       kernels_(*plan.kernels),
       film_(film),
-      batch_(scene, plan, batch_rows),
+      batch_(scene, plan, batch_rows, FeatureRecorder::sums_per_path(features)),
+      features_(scene, features, batch_rows),
       clock_(trace) {}
 
 void Worker::count(Stage stage, uint64_t rows, LaneCount lanes) {
@@ -40,6 +42,7 @@ void Worker::generate(WorkCursor& work) {
     sums.pixel[slot] = (y - film.crop_y0) * film_.width() + (x - film.crop_x0);
     batch_.slot_sample[slot] = camera.sample[i];
   }
+  if (features_.active()) features_.start(sums, camera.slot, n);
   const auto draw_film = kernels_.draw[uint32_t(plan_.sampler)];
   draw_film(plan_.transport.seed, Dimension::kFilm, camera.pixel, camera.sample, nullptr,
             batch_.film_u.data(), batch_.film_v.data(), n);
@@ -183,6 +186,12 @@ void Worker::shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end) {
     count(Stage::kEmission, n);
   }
 
+  if (features_.active() && !material_traits(bin.bin.material).see_through) {
+    features_.record_surfaces(batch_.surfaces.columns(), batch_.chunk_paths.columns(),
+                              batch_.sums.columns(), n);
+    features_.turn_indirect(batch_.chunk_paths.columns(), n);
+  }
+
   // Columns that this bin does not draw are not there.
   Randoms<ConstColumn> drawn{};
   clock_.enter(Stage::kDraw, n);
@@ -216,8 +225,11 @@ void Worker::shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end) {
 
   clock_.enter(Stage::kShade, n);
   const uint32_t material = uint32_t(bin.bin.material);
+  const uint32_t first_path = out_.path_count;
   kernels_.shade[material]({surfaces, paths, drawn, lights, view_.parameters[material]},
                            plan_.transport, out_, counted_.drops, n);
+  if (features_.active())
+    features_.record_albedo(out_.paths, batch_.sums.columns(), first_path, out_.path_count);
   count(Stage::kShade, n);
 }
 
@@ -265,12 +277,14 @@ void Worker::accumulate() {
   counted_.stats.paths += out_.finished_count;
 }
 
-void Worker::flush(uint32_t slot) {
+void Worker::flush(uint32_t row) {
+  const uint32_t slot = features_.own_row(row);
   const SampleSum<Column>& sums = batch_.sums.columns();
   const uint32_t pixel = sums.pixel[slot];
-  const ColourTriple<float> rgb =
-      rgb_of<float>({sums.r[slot], sums.g[slot], sums.b[slot]}, scene_.colour.film);
-  if (!film_.data()[pixel].add(rgb.r, rgb.g, rgb.b)) {
+  const ColourTriple<float> rgb = features_.light(sums, slot);
+  if (film_.data()[pixel].add(rgb.r, rgb.g, rgb.b)) {
+    if (features_.active()) features_.record_light(sums, slot, rgb);
+  } else {
     const FilmSettings& film = scene_.film;
     const uint32_t x = film.crop_x0 + pixel % film_.width();
     const uint32_t y = film.crop_y0 + pixel / film_.width();

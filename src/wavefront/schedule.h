@@ -11,6 +11,7 @@
 #include "base/ticks.h"
 #include "film/film.h"
 #include "wavefront/batch.h"
+#include "wavefront/feature_recorder.h"
 #include "wavefront/plan.h"
 #include "wavefront/work.h"
 
@@ -57,8 +58,10 @@ inline constexpr uint32_t kBeamPaths = 64;
 
 class Worker {
  public:
-  /// film: where ended paths go; rows of pixels that no other worker touches at the same time.
-  Worker(const Scene& scene, const Plan& plan, uint32_t batch_rows, bool trace, Film& film);
+  /// film, features: where ended paths go; rows of pixels that no other worker touches at the same
+  /// time. features may be null.
+  Worker(const Scene& scene, const Plan& plan, uint32_t batch_rows, bool trace, Film& film,
+         FeatureFilm* features);
 
   /// Rows that new paths may take: whole beams of camera rays.
   uint32_t free_rows() const {
@@ -84,7 +87,8 @@ class Worker {
   void draw(Dimension dimension, float* first, float* second, uint32_t n);
   void shadow();
   void accumulate();
-  void flush(uint32_t slot);
+  /// row: of SampleSum, of a path that has ended.
+  void flush(uint32_t row);
   void count(Stage stage, uint64_t rows);
   void count(Stage stage, uint64_t rows, LaneCount lanes);
 
@@ -94,6 +98,7 @@ class Worker {
   const KernelTable& kernels_;
   Film& film_;
   Batch batch_;
+  FeatureRecorder features_;
   StageClock clock_;
   WorkerCount counted_;
   uint32_t current_ = 0;  ///< which of the two pairs holds the paths under way
