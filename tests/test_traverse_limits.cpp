@@ -210,6 +210,40 @@ TEST_P(TraverseLimits, FarRaysThatEndEarlyMissAndAreFree) {
   }
 }
 
+// A shadow ray that enters every box of a tree makes more short lists than may wait for their turn.
+TEST_P(TraverseLimits, ShortListsBeyondTheRingLoseNoOccluder) {
+  // Large triangles in planes around the rays and parallel to them: all boxes, no hits.
+  const Vec along{1, 1, 1}, across = unit(Vec{1, -1, 0}), third = unit(cross(along, across));
+  Mesh mesh;
+  Rng rng(21);
+  for (uint32_t i = 0; i < 20000; ++i) {
+    const double angle = uniform(rng, 0, 2 * M_PI), far = uniform(rng, .05, .2);
+    const Vec normal = across * std::cos(angle) + third * std::sin(angle);
+    const Vec side = cross(unit(along), normal), c = normal * far;
+    mesh.add(c - along * uniform(rng, 1, 2) - side, c + along * uniform(rng, 1, 2) - side * .9,
+             c + along * uniform(rng, -1, 1) + side * 2);
+  }
+  std::vector<Ray<Value>> rays;
+  for (uint32_t i = 0; i < 60; ++i) {
+    const Vec o = along * -.5 + across * uniform(rng, -.03, .03) + third * uniform(rng, -.03, .03);
+    rays.push_back(make_ray(o, along));
+    if (i % 3 == 0) continue;
+    const Vec at = o + along * uniform(rng, .1, .9);
+    mesh.add(at - across * 1e-4 - third * 1e-4, at + across * 2e-4 - third * 1e-4,
+             at + third * 2e-4);
+  }
+  mesh.done();
+  const Tree tree = build(mesh);
+  for (const uint32_t batch : {1u, 2u, 5u, 7u, 60u})
+    for (uint32_t begin = 0; begin < 60; begin += batch) {
+      const std::vector<Ray<Value>> part(rays.begin() + begin,
+                                         rays.begin() + std::min(60u, begin + batch));
+      const std::vector<uint32_t> occluded = trace_shadow(kernels(), tree.view, part);
+      for (uint32_t i = 0; i < part.size(); ++i)
+        ASSERT_EQ(occluded[i], uint32_t((begin + i) % 3 != 0)) << begin + i << " of " << batch;
+    }
+}
+
 TEST_P(TraverseLimits, EmptyTree) {
   Mesh mesh;
   mesh.done();

@@ -13,25 +13,12 @@
 
 #include <type_traits>
 
-#include "kernels/traverse_leaf.h"
+#include "kernels/traverse_tasks.h"
 
 namespace yat::YAT_ISA {
 
-/// An architecture whose float register holds at most eight lanes, for a ray against eight boxes.
-template <class A>
-struct EightBoxes {
-  using Arch = A;
-};
-#if defined(__AVX512F__)
-template <>
-struct EightBoxes<xsimd::avx512bw> {
-  using Arch = xsimd::fma3<xsimd::avx2>;
-};
-#endif
-
 /// Lists this short are tested ray by ray.
 inline constexpr uint32_t kShortList = 6;
-inline constexpr uint32_t kLeafBit = 0x80000000u;
 
 constexpr size_t list_words(uint32_t rays) {
   return padded_rows(rays) + kRowPad;  // A packed store may start at the last ray.
@@ -48,6 +35,9 @@ struct Traversal {
   uint32_t octant;               ///< of all rays of a closest-hit pass
   LaneCount count;
   Leaves* leaves = nullptr;
+  ShortTasks tasks = {};  ///< of any-hit passes whose leaves are blocks
+
+  static constexpr bool kPutsOff = Q != Query::kClosest && std::is_void_v<Leaves>;
 
   YAT_INLINE uint32_t kz_of(uint32_t slot) const {
     return uint32_t(slot >= second_kz) + uint32_t(slot >= third_kz);
@@ -183,45 +173,33 @@ struct Traversal {
   YAT_INLINE void test_boxes_by_ray(const TreeNode& node, uint32_t children, const uint32_t* slots,
                                     uint32_t n, uint32_t* const (&lists)[8],
                                     float* const (&enters)[8], uint32_t (&lengths)[8]) noexcept {
-    using B = typename EightBoxes<A>::Arch;
-    constexpr uint32_t L = kLanes<B>;
-    static_assert(8 % L == 0);
-    const float* const planes = node.min_x;
-    const Float<B> zero(0.f);
+    float at[8];
+    count.rows += uint64_t(n) * children;
+    count.steps += n * (8 / kLanes<typename EightBoxes<A>::Arch>);
     for (uint32_t i = 0; i < n; ++i) {
       const float* const record = records + size_t(slots[i]) * kRecordWords;
-      const uint32_t near_x = record[2] < 0.f ? 24 : 0, near_y = record[3] < 0.f ? 32 : 8,
-                     near_z = record[4] < 0.f ? 40 : 16;
-      const Float<B> t_max(record[kRecordT]);
-      count.rows += children;
-      count.steps += 8 / L;
-      for (uint32_t first = 0; first < 8; first += L) {
-        const auto plane = [&](uint32_t offset, uint32_t axis) {
-          return xsimd::fma(Float<B>::load_aligned(planes + offset + first),
-                            Float<B>(record[2 + axis]), Float<B>(record[5 + axis]));
-        };
-        const Float<B> enter = xsimd::max(xsimd::max(plane(near_x, 0), plane(near_y, 1)),
-                                          xsimd::max(plane(near_z, 2), zero));
-        const Float<B> leave = xsimd::min(xsimd::min(plane(24 - near_x, 0), plane(40 - near_y, 1)),
-                                          xsimd::min(plane(56 - near_z, 2), t_max));
-        alignas(64) float enter_of[L];
-        if constexpr (Q == Query::kClosest) enter.store_aligned(enter_of);
-        for (uint32_t bits = mask_bits<B>(enter <= leave); bits; bits &= bits - 1) {
-          const auto lane = uint32_t(__builtin_ctz(bits));
-          const uint32_t c = first + lane;
-          lists[c][lengths[c]] = slots[i];
-          if constexpr (Q == Query::kClosest) enters[c][lengths[c]] = enter_of[lane];
-          ++lengths[c];
-        }
+      for (uint32_t bits = boxes_entered<A, Q>(node, record, at); bits; bits &= bits - 1) {
+        const auto c = uint32_t(__builtin_ctz(bits));
+        lists[c][lengths[c]] = slots[i];
+        if constexpr (Q == Query::kClosest) enters[c][lengths[c]] = at[c];
+        ++lengths[c];
       }
     }
+  }
+
+  /// Adds a list of up to kTaskRays rays, of which so many words can be read, to the tasks.
+  YAT_INLINE void put_off(uint32_t child, const uint32_t* slots, uint32_t n) noexcept {
+    prefetch(child);
+    ShortTask& task = tasks.add();
+    task.child = child;
+    task.count = n;
+    __builtin_memcpy(task.slots, slots, sizeof task.slots);
   }
 
   /// Visits a node with n > 0 rays, and what is below it. arena: free scratch.
   void visit(uint32_t row, const uint32_t* slots, uint32_t n, std::byte* arena) noexcept {
     const TreeNode& node = tree.nodes[row];
-    uint32_t children = 0;
-    while (children < 8 && node.child[children] != kNone) ++children;
+    const uint32_t children = child_count<A>(node);
     const size_t words = list_words(n);
     uint32_t* lists[8];
     float* enters[8];
@@ -237,7 +215,14 @@ struct Traversal {
       test_rays_by_box(node, children, slots, n, lists, enters, lengths);
     }
     for (uint32_t c = 0; c < children; ++c)
-      if (lengths[c]) prefetch(node.child[c]);
+      if (kPutsOff && lengths[c] <= kTaskRays) {
+        if (lengths[c]) put_off(node.child[c], lists[c], lengths[c]);
+        lengths[c] = 0;
+      } else if (lengths[c]) {
+        prefetch(node.child[c]);
+      }
+    if constexpr (kPutsOff)
+      if (tasks.count > kTasksAhead) run_tasks<A, Q>(*this, kTasksAhead);
     const uint8_t* const bytes = node.order[octant];
     uint32_t order = uint32_t(bytes[0]) | uint32_t(bytes[1]) << 8 | uint32_t(bytes[2]) << 16;
     for (uint32_t k = 0; k < children; ++k, order >>= 3) {
@@ -271,14 +256,15 @@ struct Traversal {
 /// Bytes of the parts of the scratch memory.
 struct ScratchPlan {
   uint32_t rays;
-  size_t records, words, total;
+  size_t records, words, tasks, total;
   YAT_INLINE ScratchPlan(const TreeView& tree, uint32_t max_rays) {
     rays = max_rays < kStreamRays ? max_rays : kStreamRays;
     records = (size_t(rays) + 1) * kRecordWords * 4;
     words = list_words(rays) * 4;
-    // Rows' slots, shifts and classes, the root's list, and eight lists (slots and distances) per
-    // level of the tree, each as long as the stream: nothing can overflow.
-    total = records + words * 4 + words * 16 * (size_t(tree.max_depth) + 1) + 64;
+    // Tasks, rows' slots, shifts and classes, the root's list, and eight lists (slots and
+    // distances) per level of the tree, each as long as the stream: nothing can overflow.
+    tasks = size_t(ShortTasks::places(tree.max_depth)) * sizeof(ShortTask);
+    total = tasks + records + words * 4 + words * 16 * (size_t(tree.max_depth) + 1) + 64;
   }
 };
 
@@ -312,6 +298,8 @@ YAT_INLINE LaneCount trace_octants(const TreeView& tree, const RayStream& stream
                                    std::byte* free, Leaves* leaves) {
   constexpr uint32_t W = kLanes<A>;
   LaneCount count;
+  const uint32_t places = ShortTasks::places(tree.max_depth);
+  auto* const ring = reinterpret_cast<ShortTask*>(take_bytes(free, places * sizeof(ShortTask)));
   for (uint32_t octant = 0; octant < (Q == Query::kClosest ? 8 : 1); ++octant) {
     const uint32_t* const first = stream.first_slot + 3 * octant;
     const uint32_t m = first[3] - first[0];
@@ -319,8 +307,10 @@ YAT_INLINE LaneCount trace_octants(const TreeView& tree, const RayStream& stream
     for (uint32_t i = 0; i < m; i += W)
       (lane_index<A>() + UInt<A>(first[0] + i)).store_unaligned(slots + i);
     UInt<A>(first[0]).store_unaligned(slots + m);
-    Traversal<A, Q, Leaves> pass{tree, stream.records, first[1], first[2], octant, {}, leaves};
+    Traversal<A, Q, Leaves> pass{tree, stream.records, first[1],          first[2], octant,
+                                 {},   leaves,         {ring, places - 1}};
     pass.visit(0, slots, m, free);
+    if constexpr (pass.kPutsOff) run_tasks<A, Q>(pass, 0);
     count.rows += pass.count.rows;
     count.steps += pass.count.steps;
   }
