@@ -22,6 +22,10 @@ struct Case {
   double albedo = 1;        ///< the model's own bound where its reflectances are 1
   bool reciprocal = true;   ///< f(a, b) = f(b, a)
   Formula inside{nullptr};  ///< seen from the inside, where that is another formula
+  double tolerance = 0;     ///< relative error of f that rounding explains
+  int grid = 6;             ///< points a side in a cell of the quadratures; 0: too narrow for them
+  /// What single directions bring beside f, by the cosine of wo (negative: inside).
+  std::function<glm::dvec3(double cos)> mirror{nullptr};
   const Formula& seen_from(double side) const { return side < 0 && inside ? inside : f; }
 };
 

@@ -42,6 +42,9 @@ inline Parameter text(std::string name, std::string value,
   p.strings = {std::move(value)};
   return p;
 }
+inline Parameter flag(std::string name, bool value) {
+  return text(std::move(name), value ? "true" : "false", ParameterType::kBool);
+}
 inline Parameter texture(std::string name, uint32_t row) {
   Parameter p = text(std::move(name), "t", ParameterType::kTexture);
   p.texture = row;

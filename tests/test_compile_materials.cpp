@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "kernels/materials/all.h"
+#include "scene/compile_fresnel.h"
 #include "scene_builder.h"
 
 namespace yat {
@@ -159,19 +160,144 @@ TEST_F(CompileMaterials, DiffuseWithSomethingToSay) {
 }
 
 TEST_F(CompileMaterials, Unsupported) {
-  Scene scene = with(plugin("metal2", {color("Kr", .2f, .2f, .2f), number("uroughness", .5f)}));
+  Scene scene = with(plugin("cloth", {color("warp_Kd", .2f, .2f, .2f)}));
   EXPECT_EQ(row_of<MatteParameters>(scene, MaterialKind::kMatte).kd_r, .2f);
   EXPECT_SAID(
-      "scene.lxs:10:1: warning: material \"metal2\" is not yet supported: rendered as matte with "
+      "scene.lxs:10:1: warning: material \"cloth\" is not yet supported: rendered as matte with "
       "Kd 0.2 0.2 0.2");
-  scene = with(plugin("roughglass", {number("index", 2)}));
-  EXPECT_EQ(row_of<GlassParameters>(scene, MaterialKind::kGlass).index, 2);
   scene = with(plugin("mate", {}));
   EXPECT_SAID(
       "scene.lxs:10:1: error: unknown material \"mate\" (did you mean \"matte\"?): matte with Kd "
       "0.9 is used");
-  with(plugin("mirror", {number("film", 200), number("filmindex", 1.33f)}));
-  EXPECT_SAID("scene.lxs:11:2: warning: thin films are not yet supported: \"film\" is taken as 0");
+}
+
+TEST_F(CompileMaterials, FilmsOnMirrorsAndGlass) {
+  const auto mirror = row_of<MirrorFilmParameters>(
+      with(plugin("mirror", {number("film", 200), number("filmindex", 1.33f)})),
+      MaterialKind::kMirrorFilm);
+  EXPECT_EQ(mirror.film, 200);
+  EXPECT_EQ(mirror.filmindex, 1.33f);
+  const auto glass = row_of<GlassFilmParameters>(
+      with(plugin("glass", {number("film", 300), color("Kr", 1, .5f, 0)})),
+      MaterialKind::kGlassFilm);
+  EXPECT_EQ(glass.kr_g, .5f);
+  EXPECT_EQ(glass.film, 300);
+  EXPECT_EQ(glass.filmindex, 1.5f);
+  EXPECT_SILENT();
+}
+
+TEST_F(CompileMaterials, GlassOfAllKinds) {
+  const auto rough = row_of<RoughGlassParameters>(
+      with(plugin("roughglass", {number("index", 2), number("uroughness", .25f)})),
+      MaterialKind::kRoughGlass);
+  EXPECT_EQ(rough.index, 2);
+  EXPECT_EQ(rough.uroughness, .25f);
+  EXPECT_EQ(rough.vroughness, .001f);
+  EXPECT_SILENT();
+  // No facets can be seen on glass that does not bend light.
+  EXPECT_EQ(row_of<GlassParameters>(with(plugin("roughglass", {number("index", 1)})),
+                                    MaterialKind::kGlass)
+                .index,
+            1);
+  const auto pane = row_of<ArchitecturalGlassParameters>(
+      with(plugin("glass", {flag("architectural", true), color("Kt", .5f, 1, 1)})),
+      MaterialKind::kArchitecturalGlass);
+  EXPECT_EQ(pane.kt_r, .5f);
+  EXPECT_EQ(pane.film, 0);
+}
+
+TEST_F(CompileMaterials, MetalPresetsHaveTheirColour) {
+  const std::pair<const char*, glm::dvec3> presets[] = {{"aluminium", {.913, .922, .925}},
+                                                        {"silver", {.971, .960, .914}},
+                                                        {"gold", {.999, .786, .343}},
+                                                        {"copper", {.951, .639, .536}},
+                                                        {"amorphous carbon", {.212, .212, .2}}};
+  for (const auto& [name, colour] : presets) {
+    const auto p = row_of<MetalParameters>(
+        with(plugin("metal", {text("name", name), number("uroughness", .2f)})),
+        MaterialKind::kMetal);
+    EXPECT_EQ(p.uroughness, .2f);
+    EXPECT_EQ(p.vroughness, .1f);
+    const float n[] = {p.n_r, p.n_g, p.n_b}, k[] = {p.k_r, p.k_g, p.k_b};
+    for (int b = 0; b < 3; ++b) {
+      const double a = double(n[b]), e = double(k[b]);
+      EXPECT_NEAR(((a - 1) * (a - 1) + e * e) / ((a + 1) * (a + 1) + e * e), colour[b], 1e-3)
+          << name << ", band " << b;
+    }
+  }
+  EXPECT_SILENT();
+  const auto unknown = row_of<MetalParameters>(with(plugin("metal", {text("name", "silber")})),
+                                               MaterialKind::kMetal);
+  EXPECT_EQ(unknown.n_r, 1.248f);
+  EXPECT_SAID(
+      "scene.lxs:11:2: warning: metal \"silber\" (did you mean \"silver\"?): there is no such "
+      "preset or file; aluminium is used");
+}
+
+TEST_F(CompileMaterials, MetalDataFiles) {
+  std::string problem;
+  // Luxpop: Angstrom, n, k. 610 and 550 nm lie between samples, 465 nm below them.
+  const auto luxpop =
+      read_metal_data("; comment 7 8\n5000 1 2\n6000 3 4 ; more\n7000 5 8\n", problem);
+  ASSERT_TRUE(luxpop);
+  EXPECT_DOUBLE_EQ(luxpop->n[0], 3.2);
+  EXPECT_DOUBLE_EQ(luxpop->k[0], 4.4);
+  EXPECT_DOUBLE_EQ(luxpop->n[1], 2);
+  EXPECT_DOUBLE_EQ(luxpop->n[2], 1);
+  // SOPRA in um, from the last sample to the first: sample i at .4 + .4 i / 4.
+  const auto sopra = read_metal_data("2 .4 .8 4\n4 .4\n3 .3\n2 .2\n1 .1\n", problem);
+  ASSERT_TRUE(sopra);
+  EXPECT_NEAR(sopra->n[1], 2.5, 1e-9);
+  EXPECT_NEAR(sopra->k[0], .31, 1e-9);
+  // In eV, which falls with the wavelength: first and last change places.
+  const auto energy = read_metal_data("1 1.5 3 3\n1 1\n2 2\n3 3\n", problem);
+  ASSERT_TRUE(energy);
+  EXPECT_GT(energy->n[0], energy->n[2]);
+  EXPECT_FALSE(read_metal_data("1 2 three", problem));
+  EXPECT_EQ(problem, "it is not a table of numbers");
+}
+
+TEST_F(CompileMaterials, FresnelOfMetal2) {
+  const auto fresnel = [&](Plugin texture_plugin) {
+    description.textures.clear();
+    description.textures.push_back({"f", "fresnel", std::move(texture_plugin), Matrix(1.)});
+    return with(plugin("metal2", {texture("fresnel", 0)}));
+  };
+  auto index = row_of<MetalIndexParameters>(with(plugin("metal2", {})), MaterialKind::kMetalIndex);
+  EXPECT_EQ(index.n_g, 5);
+  EXPECT_EQ(index.k_g, 0);
+  index = row_of<MetalIndexParameters>(with(plugin("metal2", {number("fresnel", 1.5f)})),
+                                       MaterialKind::kMetalIndex);
+  EXPECT_EQ(index.n_b, 1.5f);
+  index = row_of<MetalIndexParameters>(fresnel(plugin("constant", {number("value", 2)})),
+                                       MaterialKind::kMetalIndex);
+  EXPECT_EQ(index.n_r, 2);
+  index = row_of<MetalIndexParameters>(
+      fresnel(plugin("cauchy", {number("index", 1.5f), number("cauchyb", .01f)})),
+      MaterialKind::kMetalIndex);
+  EXPECT_NEAR(index.n_g, 1.5 - 1e4 / (720. * 380.) + 1e4 / (550. * 550.), 1e-6);
+  EXPECT_LT(index.n_r, index.n_b);
+  // BK7, by Abbe's number and by Sellmeier's terms.
+  index = row_of<MetalIndexParameters>(fresnel(plugin("abbe", {})), MaterialKind::kMetalIndex);
+  EXPECT_NEAR(index.n_g, 1.5185, 2e-4);
+  const auto colour = row_of<MetalColourParameters>(
+      fresnel(plugin("fresnelcolor", {color("Kr", .25f, .5f, 1)})), MaterialKind::kMetalColour);
+  EXPECT_EQ(colour.kr_r, .25f);
+  EXPECT_EQ(colour.kr_b, 1);
+  const auto gold = row_of<MetalParameters>(fresnel(plugin("preset", {text("name", "gold")})),
+                                            MaterialKind::kMetal);
+  EXPECT_EQ(gold.n_r, .206f);
+  EXPECT_SILENT();
+  // lxs 7.4: colours where LuxRender wants a fresnel texture.
+  const auto kr = row_of<MetalColourParameters>(
+      with(plugin("metal2", {color("Kr", .2f, .3f, .4f), number("uroughness", .5f)})),
+      MaterialKind::kMetalColour);
+  EXPECT_EQ(kr.kr_g, .3f);
+  EXPECT_EQ(kr.uroughness, .5f);
+  EXPECT_EQ(kr.vroughness, .1f);
+  EXPECT_SAID(
+      "scene.lxs:11:2: warning: \"Kr\" of material \"metal2\" is a colour, which LuxRender would "
+      "ignore: taken as that of a fresnelcolor texture");
 }
 
 TEST_F(CompileMaterials, UnusedParameter) {

@@ -37,6 +37,10 @@ YAT_INLINE Spectrum<A> operator*(const Spectrum<A>& a, const Spectrum<A>& b) {
   return {a.r * b.r, a.g * b.g, a.b * b.b};
 }
 template <class A>
+YAT_INLINE Spectrum<A> operator+(const Spectrum<A>& a, const Spectrum<A>& b) {
+  return {a.r + b.r, a.g + b.g, a.b + b.b};
+}
+template <class A>
 YAT_INLINE Float<A> largest(const Spectrum<A>& c) {
   return xsimd::max(xsimd::max(c.r, c.g), c.b);
 }
@@ -61,6 +65,20 @@ struct BsdfSample {
   Vec3<A> wi;          ///< local, unit; z < 0: through the surface
   Spectrum<A> weight;  ///< f |cos| / pdf; 0 where nothing was chosen
   Float<A> pdf;        ///< solid angle; 0 for delta lobes
+};
+
+/// f and pdf of a material that scatters into single directions only.
+template <class A>
+struct Delta {
+  template <class Parameters>
+  static YAT_INLINE Spectrum<A> evaluate(const Parameters&, const BsdfView<A>&, const Vec3<A>&) {
+    const Float<A> zero(0.f);
+    return {zero, zero, zero};
+  }
+  template <class Parameters>
+  static YAT_INLINE Float<A> pdf(const Parameters&, const BsdfView<A>&, const Vec3<A>&) {
+    return Float<A>(0.f);
+  }
 };
 
 }  // namespace yat::YAT_ISA

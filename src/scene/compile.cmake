@@ -9,6 +9,7 @@ target_sources(
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_diffuse.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_film.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_filter.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_fresnel.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_geometry.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_glass.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_lights.cpp

@@ -70,13 +70,6 @@ void accept_common(Parameters& p) {
 
 }  // namespace
 
-void accept_film(Parameters& p) {
-  if (p.number("film", 0) != 0)
-    p.diagnostics().warning(p.loc("film"),
-                            "thin films are not yet supported: \"film\" is taken as 0");
-  p.accept({"filmindex"});
-}
-
 glm::dvec3 MaterialCompiler::reflectance(Parameters& p, std::string_view name, double fallback) {
   const glm::dvec3 given = color_parameter(p, name, glm::dvec3(fallback), description_);
   // max(0, NaN) is 0 in this order.

@@ -73,8 +73,12 @@ class MaterialCompiler {
 /// Lambert (sigma 0) or Oren-Nayar. kd: linear Rec.709, 0..1; sigma in degrees, 0..90.
 MaterialRef add_matte(MaterialCompiler& compiler, const glm::dvec3& kd, double sigma_degrees);
 
-/// Thin films change the colour of reflections.
-void accept_film(Parameters& parameters);
+/// Thin film on a mirror or glass.
+struct Film {
+  float thickness;  ///< [nm]; 0: none
+  float index;      ///< >= 1
+};
+Film read_film(MaterialCompiler& compiler, Parameters& parameters);
 
 // One function per type: reads the parameters, adds the row. What every material takes (bump maps,
 // compositing switches) is read by the caller.

@@ -1,26 +1,80 @@
 // Mirrors and metals (lxs 7.2).
 
+#include <algorithm>
+
+#include "kernels/materials/metal.h"
+#include "kernels/materials/metal_colour.h"
+#include "kernels/materials/metal_index.h"
 #include "kernels/materials/mirror.h"
-#include "scene/compile_materials.h"
+#include "kernels/materials/mirror_film.h"
+#include "kernels/materials/shiny_metal.h"
+#include "scene/compile_fresnel.h"
 
 namespace yat {
 
+namespace {
+
+struct Roughness {
+  float u, v;
+};
+Roughness roughness(MaterialCompiler& compiler, Parameters& p) {
+  const double u = compiler.clamped(p, "uroughness", .1, 0, 1);
+  return {float(u), float(compiler.clamped(p, "vroughness", .1, 0, 1))};
+}
+
+template <template <template <class> class> class Record>
+MaterialRef add_index(MaterialCompiler& compiler, MaterialKind kind, const IndexBands& i,
+                      const Roughness& rough) {
+  return compiler.add<Record>(kind, {float(i.n[0]), float(i.n[1]), float(i.n[2]), float(i.k[0]),
+                                     float(i.k[1]), float(i.k[2]), rough.u, rough.v});
+}
+
+}  // namespace
+
+Film read_film(MaterialCompiler& compiler, Parameters& p) {
+  const double thickness = compiler.clamped(p, "film", 0, 0, 1e6);
+  return {float(thickness), float(compiler.clamped(p, "filmindex", 1.5, 1, 10))};
+}
+
 MaterialRef build_mirror(MaterialCompiler& compiler, Parameters& p) {
   const glm::vec3 kr = compiler.reflectance_bands(p, "Kr", 1);
-  accept_film(p);
+  const Film film = read_film(compiler, p);
+  if (film.thickness > 0)
+    return compiler.add<MirrorFilmParameters>(MaterialKind::kMirrorFilm,
+                                              {kr.x, kr.y, kr.z, film.thickness, film.index});
   return compiler.add<MirrorParameters>(MaterialKind::kMirror, {kr.x, kr.y, kr.z});
 }
 
 MaterialRef build_metal(MaterialCompiler& compiler, Parameters& p) {
-  return compiler.stand_in(p, "", .5);
+  const IndexBands index = named_metal(compiler, p);
+  return add_index<MetalParameters>(compiler, MaterialKind::kMetal, index, roughness(compiler, p));
 }
 
 MaterialRef build_metal2(MaterialCompiler& compiler, Parameters& p) {
-  return compiler.stand_in(p, "Kr", .5);
+  const Fresnel fresnel = fresnel_parameter(compiler, p);
+  const Roughness rough = roughness(compiler, p);
+  if (const auto* colour = std::get_if<FresnelColour>(&fresnel)) {
+    const glm::vec3 kr = compiler.bands(colour->kr);
+    return compiler.add<MetalColourParameters>(MaterialKind::kMetalColour,
+                                               {kr.x, kr.y, kr.z, rough.u, rough.v});
+  }
+  // LuxRender takes the simpler formula where k is not below n everywhere.
+  const IndexBands& index = std::get<IndexBands>(fresnel);
+  const bool conductor =
+      index.n[0] <= index.k[0] || index.n[1] <= index.k[1] || index.n[2] <= index.k[2];
+  return conductor
+             ? add_index<MetalParameters>(compiler, MaterialKind::kMetal, index, rough)
+             : add_index<MetalIndexParameters>(compiler, MaterialKind::kMetalIndex, index, rough);
 }
 
 MaterialRef build_shinymetal(MaterialCompiler& compiler, Parameters& p) {
-  return compiler.stand_in(p, "Kr", .9);
+  const glm::vec3 kr = compiler.reflectance_bands(p, "Kr", 1);
+  const glm::vec3 ks = compiler.reflectance_bands(p, "Ks", 1);
+  const Roughness rough = roughness(compiler, p);
+  const Film film = read_film(compiler, p);
+  return compiler.add<ShinyMetalParameters>(
+      MaterialKind::kShinyMetal,
+      {kr.x, kr.y, kr.z, ks.x, ks.y, ks.z, rough.u, rough.v, film.thickness, film.index});
 }
 
 }  // namespace yat

@@ -19,8 +19,18 @@
   YAT_MATERIAL(matte_translucent, MatteTranslucent) \
   YAT_MATERIAL(velvet,            Velvet)           \
   YAT_MATERIAL(scatter,           Scatter)          \
+  YAT_MATERIAL(metal,             Metal)            \
+  YAT_MATERIAL(metal_index,       MetalIndex)       \
+  YAT_MATERIAL(metal_colour,      MetalColour)      \
+  YAT_MATERIAL(shiny_metal,       ShinyMetal)       \
+  YAT_MATERIAL(cook_torrance,     CookTorrance)     \
+  YAT_MATERIAL(cook_torrance_single, CookTorranceSingle) \
+  YAT_MATERIAL(rough_glass,       RoughGlass)       \
   YAT_MATERIAL(mirror,            Mirror)           \
+  YAT_MATERIAL(mirror_film,       MirrorFilm)       \
   YAT_MATERIAL(glass,             Glass)            \
+  YAT_MATERIAL(glass_film,        GlassFilm)        \
+  YAT_MATERIAL(architectural_glass, ArchitecturalGlass) \
   YAT_MATERIAL(null,              Null)
 // clang-format on
 

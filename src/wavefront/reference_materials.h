@@ -22,6 +22,11 @@ Vec mirrored(const Vec& wo);
 Bounce sample(const MirrorParameters<Value>&, const LocalView&, double, double, double);
 Bounce sample(const GlassParameters<Value>&, const LocalView&, double lobe, double, double);
 Bounce sample(const NullParameters<Value>&, const LocalView&, double, double, double);
+// reference_microfacet.cpp
+Bounce sample(const MirrorFilmParameters<Value>&, const LocalView&, double, double, double);
+Bounce sample(const GlassFilmParameters<Value>&, const LocalView&, double lobe, double, double);
+Bounce sample(const ArchitecturalGlassParameters<Value>&, const LocalView&, double lobe, double,
+              double);
 
 // reference_diffuse.cpp
 #define YAT_REFERENCE(Type)                                                      \
@@ -33,6 +38,14 @@ YAT_REFERENCE(OrenNayar)
 YAT_REFERENCE(MatteTranslucent)
 YAT_REFERENCE(Velvet)
 YAT_REFERENCE(Scatter)
+// reference_microfacet.cpp
+YAT_REFERENCE(Metal)
+YAT_REFERENCE(MetalIndex)
+YAT_REFERENCE(MetalColour)
+YAT_REFERENCE(ShinyMetal)
+YAT_REFERENCE(RoughGlass)
+YAT_REFERENCE(CookTorrance)
+YAT_REFERENCE(CookTorranceSingle)
 #undef YAT_REFERENCE
 
 }  // namespace yat::reference

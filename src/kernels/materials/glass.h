@@ -4,6 +4,7 @@
 // it comes from to the side o it leaves to, as the solid angle does (lxs 7.3).
 
 #include "kernels/material.h"
+#include "kernels/materials/fresnel.h"
 #include "soa/fields.h"
 
 namespace yat {
@@ -26,59 +27,48 @@ inline constexpr MaterialTraits kGlassTraits{.name = "glass",
 #if defined(YAT_ISA)
 namespace YAT_ISA {
 
+/// Smooth glass of these colours; the lobe is chosen by what each would bring: its weight then
+/// hardly varies.
 template <class A>
-struct Glass {
+YAT_INLINE BsdfSample<A> sample_glass(const Spectrum<A>& kr, const Spectrum<A>& kt,
+                                      const Float<A>& index, const BsdfView<A>& view,
+                                      const Float<A>& u_lobe) {
+  const Float<A> zero(0.f), one(1.f);
+  const Vec3<A>& wo = view.wo;
+  const Float<A> eta = xsimd::select(view.outside, one / index, index);
+  // From the tangential part, which is exact near the normal.
+  const Float<A> sin2_i = eta * eta * (wo.x * wo.x + wo.y * wo.y);
+  const Float<A> cos_i = xsimd::sqrt(xsimd::max(one - sin2_i, zero));
+  const Float<A> f = fresnel_dielectric<A>(wo.z, cos_i, eta);
+
+  const Spectrum<A> reflected = f * kr, refracted = (one - f) * kt;
+  const Float<A> reflect_share = largest(reflected), refract_share = largest(refracted);
+  const Float<A> total = reflect_share + refract_share;
+  const Float<A> threshold = reflect_share / total;
+  const Mask<A> reflects = u_lobe < threshold;
+  const Float<A> chance = xsimd::select(reflects, threshold, one - threshold);
+  const Float<A> scale = xsimd::select(reflects, one, eta * eta) / chance;
+
+  BsdfSample<A> s;
+  s.wi = {xsimd::select(reflects, -wo.x, -eta * wo.x), xsimd::select(reflects, -wo.y, -eta * wo.y),
+          xsimd::select(reflects, wo.z, -cos_i)};
+  s.weight = {scale * xsimd::select(reflects, reflected.r, refracted.r),
+              scale * xsimd::select(reflects, reflected.g, refracted.g),
+              scale * xsimd::select(reflects, reflected.b, refracted.b)};
+  // Black glass brings nothing: 0 / 0 above. `!=` so that a NaN stays one and is counted.
+  s.weight = only<A>(total != zero, s.weight);
+  s.pdf = zero;
+  return s;
+}
+
+template <class A>
+struct Glass : Delta<A> {
   using Parameters = GlassParameters<Lanes<A>::template Of>;
 
-  static YAT_INLINE Spectrum<A> evaluate(const Parameters&, const BsdfView<A>&, const Vec3<A>&) {
-    const Float<A> zero(0.f);
-    return {zero, zero, zero};
-  }
-  static YAT_INLINE Float<A> pdf(const Parameters&, const BsdfView<A>&, const Vec3<A>&) {
-    return Float<A>(0.f);
-  }
-
-  /// Fresnel reflectance (Born, Wolf, Principles of Optics, 1.5). eta = n_o / n_i for the viewer's
-  /// side o; cos_i = 0 means total reflection.
-  static YAT_INLINE Float<A> fresnel(const Float<A>& cos_o, const Float<A>& cos_i,
-                                     const Float<A>& eta) {
-    const Float<A> zero(0.f), one(1.f);
-    const Float<A> s = (eta * cos_o - cos_i) / (eta * cos_o + cos_i);
-    const Float<A> p = (cos_o - eta * cos_i) / (cos_o + eta * cos_i);
-    const Float<A> f = Float<A>(.5f) * (s * s + p * p);
-    return xsimd::select((cos_i > zero) & (cos_o > zero), xsimd::min(f, one), one);
-  }
-
-  /// The lobe is chosen by what each would bring: its weight then hardly varies.
   static YAT_INLINE BsdfSample<A> sample(const Parameters& p, const BsdfView<A>& view,
                                          const Float<A>& u_lobe, const Float<A>&, const Float<A>&) {
-    const Float<A> zero(0.f), one(1.f);
-    const Vec3<A>& wo = view.wo;
-    const Float<A> eta = xsimd::select(view.outside, one / p.index, p.index);
-    // From the tangential part, which is exact near the normal.
-    const Float<A> sin2_i = eta * eta * (wo.x * wo.x + wo.y * wo.y);
-    const Float<A> cos_i = xsimd::sqrt(xsimd::max(one - sin2_i, zero));
-    const Float<A> f = fresnel(wo.z, cos_i, eta);
-
-    const Spectrum<A> reflected = f * Spectrum<A>{p.kr_r, p.kr_g, p.kr_b};
-    const Spectrum<A> refracted = (one - f) * Spectrum<A>{p.kt_r, p.kt_g, p.kt_b};
-    const Float<A> reflect_share = largest(reflected), refract_share = largest(refracted);
-    const Float<A> total = reflect_share + refract_share;
-    const Float<A> threshold = reflect_share / total;
-    const Mask<A> reflects = u_lobe < threshold;
-    const Float<A> chance = xsimd::select(reflects, threshold, one - threshold);
-    const Float<A> scale = xsimd::select(reflects, one, eta * eta) / chance;
-
-    BsdfSample<A> s;
-    s.wi = {xsimd::select(reflects, -wo.x, -eta * wo.x),
-            xsimd::select(reflects, -wo.y, -eta * wo.y), xsimd::select(reflects, wo.z, -cos_i)};
-    s.weight = {scale * xsimd::select(reflects, reflected.r, refracted.r),
-                scale * xsimd::select(reflects, reflected.g, refracted.g),
-                scale * xsimd::select(reflects, reflected.b, refracted.b)};
-    // Black glass brings nothing: 0 / 0 above. `!=` so that a NaN stays one and is counted.
-    s.weight = only<A>(total != zero, s.weight);
-    s.pdf = zero;
-    return s;
+    return sample_glass<A>({p.kr_r, p.kr_g, p.kr_b}, {p.kt_r, p.kt_g, p.kt_b}, p.index, view,
+                           u_lobe);
   }
 };
 

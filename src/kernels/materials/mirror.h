@@ -23,16 +23,9 @@ inline constexpr MaterialTraits kMirrorTraits{.name = "mirror",
 namespace YAT_ISA {
 
 template <class A>
-struct Mirror {
+struct Mirror : Delta<A> {
   using Parameters = MirrorParameters<Lanes<A>::template Of>;
 
-  static YAT_INLINE Spectrum<A> evaluate(const Parameters&, const BsdfView<A>&, const Vec3<A>&) {
-    const Float<A> zero(0.f);
-    return {zero, zero, zero};
-  }
-  static YAT_INLINE Float<A> pdf(const Parameters&, const BsdfView<A>&, const Vec3<A>&) {
-    return Float<A>(0.f);
-  }
   static YAT_INLINE BsdfSample<A> sample(const Parameters& p, const BsdfView<A>& view,
                                          const Float<A>&, const Float<A>&, const Float<A>&) {
     return {{-view.wo.x, -view.wo.y, view.wo.z}, {p.kr_r, p.kr_g, p.kr_b}, Float<A>(0.f)};

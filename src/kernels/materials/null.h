@@ -23,16 +23,9 @@ inline constexpr MaterialTraits kNullTraits{.name = "null",
 namespace YAT_ISA {
 
 template <class A>
-struct Null {
+struct Null : Delta<A> {
   using Parameters = NullParameters<Lanes<A>::template Of>;
 
-  static YAT_INLINE Spectrum<A> evaluate(const Parameters&, const BsdfView<A>&, const Vec3<A>&) {
-    const Float<A> zero(0.f);
-    return {zero, zero, zero};
-  }
-  static YAT_INLINE Float<A> pdf(const Parameters&, const BsdfView<A>&, const Vec3<A>&) {
-    return Float<A>(0.f);
-  }
   static YAT_INLINE BsdfSample<A> sample(const Parameters&, const BsdfView<A>& view,
                                          const Float<A>&, const Float<A>&, const Float<A>&) {
     const Float<A> one(1.f);
