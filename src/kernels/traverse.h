@@ -17,8 +17,8 @@
 
 namespace yat::YAT_ISA {
 
-/// Lists this short are tested ray by ray.
-inline constexpr uint32_t kShortList = 6;
+/// Lists this short are tested against boxes ray by ray.
+inline constexpr uint32_t kShortList = 4;
 
 constexpr size_t list_words(uint32_t rays) {
   return padded_rows(rays) + kRowPad;  // A packed store may start at the last ray.
@@ -29,6 +29,8 @@ constexpr size_t list_words(uint32_t rays) {
 template <class A, Query Q, class Leaves = void>
 struct Traversal {
   static constexpr uint32_t W = kLanes<A>;
+  /// From here on, lists are tested against triangles W rays at a time.
+  static constexpr uint32_t kLongList = 2 * W;
   const TreeView& tree;
   float* records;
   uint32_t second_kz, third_kz;  ///< first slots of the classes kz = 1 and 2 of this pass
@@ -76,7 +78,7 @@ struct Traversal {
     return kept;
   }
 
-  /// A leaf with a list of less than W rays, ray by ray.
+  /// A leaf with a list of less than kLongList rays, ray by ray.
   YAT_INLINE void visit_leaf_by_ray(uint32_t child, const uint32_t* slots, const float* enter,
                                     uint32_t n) noexcept {
     const uint32_t first = (child & ~kLeafBit) >> 5, blocks = (child & 31) + 1;
@@ -230,10 +232,7 @@ struct Traversal {
       if (!lengths[c]) continue;
       const uint32_t child = node.child[c];
       const bool leaf = child & kLeafBit;
-      // Short lists find out by themselves.
       uint32_t left = lengths[c];
-      if (left >= W) left = drop_done(lists[c], enters[c], left);
-      if (!left) continue;
       if constexpr (!std::is_void_v<Leaves>) {
         if (leaf) {
           left = drop_done(lists[c], enters[c], left);
@@ -241,7 +240,10 @@ struct Traversal {
           continue;
         }
       }
-      if (leaf && left < W) {
+      // A ray that is done misses every box below, and short lists at leaves find out themselves.
+      if (leaf && left >= kLongList) left = drop_done(lists[c], enters[c], left);
+      if (!left) continue;
+      if (leaf && left < kLongList) {
         visit_leaf_by_ray(child, lists[c], enters[c], left);
       } else if (leaf) {
         visit_leaf(child, lists[c], left);
