@@ -4,9 +4,10 @@
 // of its rays. Long lists test W rays against one box after the other, short ones a ray against
 // eight boxes.
 //
-// Row independence (invariant 1): what a ray meets follows from the tree and the ray. Its way
-// through the tree is fixed by its octant, and whether it enters a box by comparisons of its own
-// numbers, the same in both kinds of test; neighbours in the list change nothing.
+// Row independence (invariant 1): what a ray meets follows from the tree and the ray. Whether
+// it enters a box is decided by comparisons of its own numbers, the same in all kinds of test, and
+// boxes are padded so that none that holds a hit is missed; of hits the nearest wins, then the
+// lower row, in whatever order they are found. So neighbours in the list change nothing.
 //
 // Source: Wald, Gribble, Boulos, Kensler, "SIMD Ray Stream Tracing", 2007; Tsakok, "Faster
 // Incoherent Rays: Multi-BVH Ray Stream Tracing", 2009; padding of boxes: see tree_collapse.cpp.
@@ -26,7 +27,7 @@ constexpr size_t list_words(uint32_t rays) {
 
 /// One pass over the tree. Leaves: what visits leaves where they are not blocks of triangles
 /// (kernels/traverse_instances.h).
-template <class A, Query Q, class Leaves = void>
+template <class A, Query Q, Passes P, class Leaves = void>
 struct Traversal {
   static constexpr uint32_t W = kLanes<A>;
   /// From here on, lists are tested against triangles W rays at a time.
@@ -34,7 +35,7 @@ struct Traversal {
   const TreeView& tree;
   float* records;
   uint32_t second_kz, third_kz;  ///< first slots of the classes kz = 1 and 2 of this pass
-  uint32_t octant;               ///< of all rays of a closest-hit pass
+  uint32_t octant;               ///< of all rays, or (kOne) the one whose order serves them
   LaneCount count;
   Leaves* leaves = nullptr;
   ShortTasks tasks = {};  ///< of any-hit passes whose leaves are blocks
@@ -150,7 +151,7 @@ struct Traversal {
           return xsimd::fma(Float<A>(planes[offset + c]), ray[1 + axis], ray[4 + axis]);
         };
         Float<A> x0, x1, y0, y1, z0, z1;
-        if constexpr (Q == Query::kClosest) {
+        if constexpr (P == Passes::kByOctant) {
           x0 = plane(near_x, 0), x1 = plane(24 - near_x, 0);
           y0 = plane(near_y, 1), y1 = plane(40 - near_y, 1);
           z0 = plane(near_z, 2), z1 = plane(56 - near_z, 2);
@@ -279,7 +280,7 @@ YAT_INLINE std::byte* take_bytes(std::byte*& free, size_t bytes) {
 
 /// Takes memory for a stream, sorts its rays and writes their records. Returns room for the slots
 /// of the root's list.
-template <class A, Query Q, class Columns>
+template <class A, Query Q, Passes P, class Columns>
 YAT_INLINE uint32_t* open_stream(const TreeView& tree, const Columns& rays, uint32_t n,
                                  const ScratchPlan& plan, std::byte*& free, RayStream& stream) {
   stream.records = reinterpret_cast<float*>(take_bytes(free, plan.records));
@@ -288,44 +289,46 @@ YAT_INLINE uint32_t* open_stream(const TreeView& tree, const Columns& rays, uint
   stream.class_of_row = reinterpret_cast<uint32_t*>(take_bytes(free, plan.words));
   auto* const slots = reinterpret_cast<uint32_t*>(take_bytes(free, plan.words));
   const float extent = extent_of(tree);
-  sort_rays<A, Q>(tree, extent, rays, n, stream);
-  write_records<A, Q>(extent, rays, n, stream);
+  sort_rays<A, Q, P>(tree, extent, rays, n, stream);
+  write_records<A, Q, P>(extent, rays, n, stream);
   return slots;
 }
 
-/// The passes over the tree, one per octant for closest hits; answers stay in the records.
-/// slots: from open_stream; free: scratch memory behind it; leaves: see Traversal.
-template <class A, Query Q, class Leaves>
-YAT_INLINE LaneCount trace_octants(const TreeView& tree, const RayStream& stream, uint32_t* slots,
-                                   std::byte* free, Leaves* leaves) {
+/// The passes over the tree; answers stay in the records. slots: from open_stream; free: scratch
+/// memory behind it; leaves: see Traversal; common: the octant of most rays, for kOne.
+template <class A, Query Q, Passes P, class Leaves>
+YAT_INLINE LaneCount trace_passes(const TreeView& tree, const RayStream& stream, uint32_t* slots,
+                                  std::byte* free, Leaves* leaves, uint32_t common = 0) {
   constexpr uint32_t W = kLanes<A>;
   LaneCount count;
   const uint32_t places = ShortTasks::places(tree.max_depth);
   auto* const ring = reinterpret_cast<ShortTask*>(take_bytes(free, places * sizeof(ShortTask)));
-  for (uint32_t octant = 0; octant < (Q == Query::kClosest ? 8 : 1); ++octant) {
-    const uint32_t* const first = stream.first_slot + 3 * octant;
+  for (uint32_t pass = 0; pass < kClasses<P> / 3; ++pass) {
+    const uint32_t* const first = stream.first_slot + 3 * pass;
     const uint32_t m = first[3] - first[0];
     if (m == 0) continue;
     for (uint32_t i = 0; i < m; i += W)
       (lane_index<A>() + UInt<A>(first[0] + i)).store_unaligned(slots + i);
     UInt<A>(first[0]).store_unaligned(slots + m);
-    Traversal<A, Q, Leaves> pass{tree, stream.records, first[1],          first[2], octant,
-                                 {},   leaves,         {ring, places - 1}};
-    pass.visit(0, slots, m, free);
-    if constexpr (pass.kPutsOff) run_tasks<A, Q>(pass, 0);
-    count.rows += pass.count.rows;
-    count.steps += pass.count.steps;
+    const uint32_t octant = P == Passes::kByOctant ? pass : common;
+    Traversal<A, Q, P, Leaves> traversal{tree, stream.records, first[1],          first[2], octant,
+                                         {},   leaves,         {ring, places - 1}};
+    traversal.visit(0, slots, m, free);
+    if constexpr (traversal.kPutsOff) run_tasks<A, Q>(traversal, 0);
+    count.rows += traversal.count.rows;
+    count.steps += traversal.count.steps;
   }
   return count;
 }
 
 /// Traces rows [0, n), n <= kStreamRays, and leaves the answers in the records.
-template <class A, Query Q, class Columns>
+template <class A, Query Q, Passes P = kUsualPasses<Q>, class Columns>
 YAT_INLINE LaneCount trace_stream(const TreeView& tree, const Columns& rays, uint32_t n,
-                                  const Scratch& scratch, RayStream& stream) noexcept {
+                                  const Scratch& scratch, RayStream& stream,
+                                  uint32_t common = 0) noexcept {
   std::byte* free = scratch.memory;
-  uint32_t* const slots = open_stream<A, Q>(tree, rays, n, ScratchPlan(tree, n), free, stream);
-  return trace_octants<A, Q>(tree, stream, slots, free, static_cast<void*>(nullptr));
+  uint32_t* const slots = open_stream<A, Q, P>(tree, rays, n, ScratchPlan(tree, n), free, stream);
+  return trace_passes<A, Q, P>(tree, stream, slots, free, static_cast<void*>(nullptr), common);
 }
 
 /// See KernelTable. Hits are watertight, in (0, t_max]; of equal distances the lower primitive row

@@ -24,6 +24,9 @@ using InstanceRowW = InstanceRow<Lanes<A>::template Of>;
 // the triangle test's numbers: words 8..15 are t, origin, direction, prim.
 inline constexpr uint32_t kRecordRay = 8;
 
+/// Lists of up to this many rays go through an object's tree in one pass.
+inline constexpr uint32_t kMostInOnePass = 256;
+
 /// Bytes of scratch memory for instances.
 struct InstanceScratch {
   size_t columns;  ///< a column of the stream
@@ -56,6 +59,17 @@ struct InstanceLeaves {
 
   YAT_INLINE void prefetch(uint32_t instance) const {
     __builtin_prefetch(instances.rows.words + size_t(instance) * row_words<InstanceRow>);
+  }
+
+  /// The octant to which most rays belong, axis by axis.
+  YAT_INLINE static uint32_t common_octant(const Ray<ConstColumn>& rays, uint32_t n) {
+    uint32_t backwards[3] = {};
+    const float* const dir[3] = {rays.dir_x, rays.dir_y, rays.dir_z};
+    for (uint32_t i = 0; i < n; i += W)
+      for (int a = 0; a < 3; ++a)
+        backwards[a] += count_true<A>((load<A>(dir[a], i) < Float<A>(0.f)) & tail_mask<A>(i, n));
+    return uint32_t(2 * backwards[0] > n) | uint32_t(2 * backwards[1] > n) << 1 |
+           uint32_t(2 * backwards[2] > n) << 2;
   }
 
   /// Takes rays to object space. to: their columns; start: by how much further on they begin than
@@ -173,8 +187,16 @@ struct InstanceLeaves {
     count.rows += n;
     count.steps += (n + W - 1) / W;
     RayStream stream;
-    const LaneCount below = trace_stream<A, Q>(instances.trees[object], as_const_columns<Ray>(rays),
-                                               n, {arena, 0}, stream);
+    const TreeView& tree = instances.trees[object];
+    const Ray<ConstColumn> in = as_const_columns<Ray>(rays);
+    // The map has turned the octant that the list's rays share into pieces of up to eight.
+    LaneCount below;
+    if (Q != Query::kClosest || n <= kMostInOnePass) {
+      below =
+          trace_stream<A, Q, Passes::kOne>(tree, in, n, {arena, 0}, stream, common_octant(in, n));
+    } else {
+      below = trace_stream<A, Q>(tree, in, n, {arena, 0}, stream);
+    }
     count.rows += below.rows;
     count.steps += below.steps;
     leave(instance, first_triangle, stream, slots, n, start);
@@ -190,10 +212,11 @@ YAT_INLINE LaneCount trace_instances(const InstancesView& instances, const Ray<C
   constexpr uint32_t W = kLanes<A>;
   const TreeView& tree = instances.top;
   const ScratchPlan plan(tree, n);
-  uint32_t* const slots = open_stream<A, Q>(tree, rays, n, plan, free, stream);
+  constexpr Passes P = kUsualPasses<Q>;
+  uint32_t* const slots = open_stream<A, Q, P>(tree, rays, n, plan, free, stream);
   auto* const moved = reinterpret_cast<float*>(take_bytes(free, plan.words));
   instance_of = reinterpret_cast<uint32_t*>(take_bytes(free, plan.words));
-  const uint32_t left_out = stream.first_slot[kClasses];
+  const uint32_t left_out = stream.left_out;
   for (uint32_t row = 0; row < n; row += W) {
     const RawRays<A> r = load_raw<A, Q>(rays, row);
     const uint32_t* const slot = stream.slot_of_row + row;
@@ -211,7 +234,7 @@ YAT_INLINE LaneCount trace_instances(const InstancesView& instances, const Ray<C
   for (uint32_t i = 0; i <= left_out; i += W) UInt<A>(kNone).store_unaligned(instance_of + i);
 
   InstanceLeaves<A, Q> leaves{instances, stream.records, moved, instance_of};
-  return trace_octants<A, Q>(tree, stream, slots, free, &leaves);
+  return trace_passes<A, Q, P>(tree, stream, slots, free, &leaves);
 }
 
 /// See KernelTable.

@@ -23,7 +23,17 @@ inline constexpr uint32_t kRecordV = 0, kRecordU = 1, kRecordBox = 1, kRecordT =
                           kRecordTriangle = 8, kRecordPrim = 15;
 /// Rays traced together; a longer call is cut. 64-byte records: 4 MB.
 inline constexpr uint32_t kStreamRays = 65536;
-inline constexpr uint32_t kClasses = 24;  ///< octant * 3 + kz for closest, kz for any hit
+/// Which rays go through the tree together.
+enum class Passes {
+  kByOctant,  ///< those of one octant: near and far sides are known, and the best order of children
+  kOne,       ///< all: lists are longer, but each box's sides must be compared
+};
+template <Query Q>
+inline constexpr Passes kUsualPasses = Q == Query::kClosest ? Passes::kByOctant : Passes::kOne;
+
+/// octant * 3 + kz, or kz.
+template <Passes P>
+inline constexpr uint32_t kClasses = P == Passes::kByOctant ? 24 : 3;
 
 /// Records and order of the rays of one stream, in scratch memory.
 struct RayStream {
@@ -31,7 +41,8 @@ struct RayStream {
   uint32_t* slot_of_row;  ///< the last slot for all that are left out: misses
   float* shift;           ///< per row: distance by which the origin was moved along dir
   uint32_t* class_of_row;
-  uint32_t first_slot[kClasses + 1];
+  uint32_t first_slot[kClasses<Passes::kByOctant> + 1];
+  uint32_t left_out;  ///< the last slot
   bool any_shift;
 };
 
@@ -152,20 +163,20 @@ YAT_INLINE float extent_of(const TreeView& tree) {
 }
 
 /// Classes of the rays of rows [first, first + n) and the slots that follow from them.
-template <class A, Query Q, class Columns>
+template <class A, Query Q, Passes P, class Columns>
 YAT_INLINE void sort_rays(const TreeView& tree, float extent, const Columns& rays, uint32_t n,
                           RayStream& stream) noexcept {
   constexpr uint32_t W = kLanes<A>;
-  constexpr uint32_t kLeftOut = kClasses;
+  constexpr uint32_t kLeftOut = kClasses<P>;
   // Four counters per class: neighbouring rows are often of one class, and an addition to memory
   // must wait for the one before.
-  uint32_t count[4][kClasses + 1] = {};
+  uint32_t count[4][kClasses<P> + 1] = {};
   stream.any_shift = false;
   for (uint32_t row = 0; row < n; row += W) {
     const RawRays<A> r = load_raw<A, Q>(rays, row);
     const Mask<A> valid = tail_mask<A>(row, n) & can_hit<A>(r);
     UInt<A> cls = MainAxis<A>(r.dir).number();
-    if constexpr (Q == Query::kClosest) {
+    if constexpr (P == Passes::kByOctant) {
       const Float<A> zero(0.f);
       cls = cls + select<A>(r.dir[0] < zero, UInt<A>(3u), UInt<A>(0u)) +
             select<A>(r.dir[1] < zero, UInt<A>(6u), UInt<A>(0u)) +
@@ -198,22 +209,22 @@ YAT_INLINE void sort_rays(const TreeView& tree, float extent, const Columns& ray
     for (uint32_t i = row; i < last; ++i) ++count[i & 3][stream.class_of_row[i]];
   }
   uint32_t slot = 0;
-  for (uint32_t c = 0; c < kClasses; ++c) {
+  for (uint32_t c = 0; c < kClasses<P>; ++c) {
     stream.first_slot[c] = slot;
     slot += (count[0][c] + count[1][c]) + (count[2][c] + count[3][c]);
   }
-  stream.first_slot[kClasses] = slot;
+  stream.first_slot[kClasses<P>] = stream.left_out = slot;
 }
 
 /// Writes the records of the sorted rays.
-template <class A, Query Q, class Columns>
+template <class A, Query Q, Passes P, class Columns>
 YAT_INLINE void write_records(float extent, const Columns& rays, uint32_t n,
                               RayStream& stream) noexcept {
   constexpr uint32_t W = kLanes<A>;
   const float floor = extent > .1f ? extent * 1e-36f : 1e-37f;
-  uint32_t next[kClasses];
-  for (uint32_t c = 0; c < kClasses; ++c) next[c] = stream.first_slot[c];
-  const uint32_t left_out = stream.first_slot[kClasses];
+  uint32_t next[kClasses<P> + 1];
+  for (uint32_t c = 0; c < kClasses<P>; ++c) next[c] = stream.first_slot[c];
+  const uint32_t left_out = stream.left_out;
   for (uint32_t row = 0; row < n; row += W) {
     RawRays<A> r = load_raw<A, Q>(rays, row);
     if (stream.any_shift) {
@@ -233,8 +244,8 @@ YAT_INLINE void write_records(float extent, const Columns& rays, uint32_t n,
     }
     alignas(64) uint32_t slot[W];
     for (uint32_t i = 0; i < W; ++i) {
-      const uint32_t cls = row + i < n ? stream.class_of_row[row + i] : kClasses;
-      slot[i] = cls < kClasses ? next[cls]++ : left_out;
+      const uint32_t cls = row + i < n ? stream.class_of_row[row + i] : kClasses<P>;
+      slot[i] = cls < kClasses<P> ? next[cls]++ : left_out;
     }
     load<A>(slot, 0).store_unaligned(stream.slot_of_row + row);
     // A zero component would make 0 x infinity. 1e-18 of the largest moves the ray by nothing that
