@@ -18,8 +18,8 @@ constexpr std::array<const char*, kMaterialKinds> kMaterialNames = {
 };
 constexpr const char* kGeometryNames[] = {"triangle_flat", "triangle_vertex", "sphere", "plane"};
 static_assert(std::size(kGeometryNames) == uint32_t(GeometryKind::kCount));
-constexpr const char* kLightNames[] = {"triangle", "sphere", "point", "distant", "mixed"};
-static_assert(std::size(kLightNames) == uint32_t(LightKind::kCount) + 1);
+constexpr const char* kLightNames[] = {"triangle", "sphere", "point", "distant", "mixed", "any"};
+static_assert(std::size(kLightNames) == kLightKernels);
 
 void add_surfaces(const KernelTable& table) {
   for (uint32_t kind = 0; kind < uint32_t(GeometryKind::kCount); ++kind) {
@@ -62,7 +62,7 @@ void add_emission_benchmark(const KernelTable& table) {
 }
 
 void add_lights(const KernelTable& table) {
-  for (uint32_t kind = 0; kind <= uint32_t(LightKind::kCount); ++kind) {
+  for (uint32_t kind = 0; kind < kLightKernels; ++kind) {
     const std::string name = std::string("sample_lights/") + kLightNames[kind];
     const auto kernel = table.sample_lights[kind];
     if (!kernel) {
@@ -70,7 +70,9 @@ void add_lights(const KernelTable& table) {
       continue;
     }
     add_benchmark(name, table, [&table, kernel, kind](benchmark::State& state) {
-      const LightMask mask = kind == uint32_t(LightKind::kCount) ? kAllLights : 1u << kind;
+      const LightMask mask = kind == kAnyLights     ? kAllLights | kSkyLights
+                             : kind == kPlainLights ? kAllLights
+                                                    : 1u << kind;
       const KernelInputs& in = inputs_for(table, mask);
       const ShadingRows* rows = in.lit_rows();
       if (!rows) return no_rows(state);

@@ -31,6 +31,8 @@ WorldBegin
     text +=
         "LightSource \"distant\" \"color L\" [1 1 1] \"point from\" [0 -1 1] \"point to\" [0 0 "
         "0]\n";
+  if (has(LightKind::kSky))
+    text += "LightSource \"sunsky\" \"vector sundir\" [0 -1 1] \"float gain\" [.0001]\n";
   if (has(LightKind::kTriangle))
     text += R"(AttributeBegin
 AreaLightSource "area" "color L" [8 8 8]

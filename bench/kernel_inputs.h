@@ -14,9 +14,10 @@
 
 namespace yat::bench {
 
-/// Which lights the room has: a bit per LightKind.
+/// Which lights the room has: a bit per LightKind; of those after the first ones, sun and sky.
 using LightMask = uint32_t;
-inline constexpr LightMask kAllLights = (1u << uint32_t(LightKind::kCount)) - 1;
+inline constexpr LightMask kAllLights = (1u << kPlainLightKinds) - 1;
+inline constexpr LightMask kSkyLights = 1u << uint32_t(LightKind::kSky);
 
 /// A room with every material and every kind of shape, and the lights asked for, as .lxs text.
 std::string room_text(LightMask lights);

@@ -173,16 +173,16 @@ TEST_F(CompileLights, DistantLight) {
 
 TEST_F(CompileLights, OthersAreLeftOut) {
   shape(triangle());
-  light(plugin("infinite", {number("gain", 1)}, 20));
-  light(plugin("infinite", {}, 21));
   light(plugin("pointt", {}, 22));
   light(plugin("distant", {numbers(ParameterType::kPoint, "to", {0, 0, 0})}, 23));
+  light(plugin("spot", {numbers(ParameterType::kPoint, "to", {0, 0, 0})}, 25));
   EXPECT_EQ(compile().lights.size(), 0u);
   EXPECT_EQ(
       all_said(),
-      "scene.lxs:20:1: warning: light \"infinite\" is not yet supported: left out\n"
       "scene.lxs:22:1: error: unknown light \"pointt\" (did you mean \"point\"?): left out\n"
       "scene.lxs:23:1: error: light \"distant\" has no direction (\"from\" and \"to\" are the same "
+      "point): left out\n"
+      "scene.lxs:25:1: error: light \"spot\" has no direction (\"from\" and \"to\" are the same "
       "point): left out\n"
       "warning: the scene has no light that can be used: the picture will be black\n");
 }

@@ -45,7 +45,7 @@ TEST(Plan, RunsWhatTheSceneHolds) {
   const Plan plan = make_plan(scene, kernels, {});
   EXPECT_TRUE(plan.triangles && plan.spheres && plan.planes && plan.thin_lens && plan.shadow_mask &&
               plan.lights);
-  EXPECT_EQ(plan.light_kernel, uint32_t(LightKind::kCount));
+  EXPECT_EQ(plan.light_kernel, kPlainLights);
   uint32_t delta = 0, lobes = 0;
   for (uint32_t b = 1; b < plan.bins.size(); ++b) {
     const BinPlan& bin = plan.bins[b];

@@ -75,7 +75,7 @@ struct Bounce {
   void shade(MaterialKind material, bool with_lights) {
     LightSample<ConstColumn> light_columns{};
     if (with_lights) {
-      kernels.sample_lights[uint32_t(LightKind::kCount)](view, surfaces.view(), randoms.view(),
+      kernels.sample_lights[kPlainLights](view, surfaces.view(), randoms.view(),
                                                          lights.columns(), n);
       light_columns = lights.view();
     }

@@ -18,8 +18,6 @@ constexpr std::array<std::string_view, kMaterialKinds> kMaterialNames = {
     YAT_MATERIALS(YAT_MATERIAL)
 #undef YAT_MATERIAL
 };
-constexpr std::array<std::string_view, uint32_t(LightKind::kCount)> kLightNames = {
-    "triangle", "sphere", "point", "distant"};
 constexpr std::array<std::string_view, uint32_t(GeometryKind::kCount)> kGeometryNames = {
     "triangles", "triangles with vertex data", "spheres", "planes"};
 
@@ -54,7 +52,7 @@ std::string light_counts(const Scene& scene) {
   std::string text;
   for (size_t kind = 0; kind < counts.size(); ++kind)
     if (counts[kind])
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[kind], kLightNames[kind]);
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[kind], kLightKindNames[kind]);
   return text.empty() ? "none" : text;
 }
 

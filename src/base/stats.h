@@ -13,6 +13,7 @@ enum class Stage : uint32_t {
   kGenerate,
   kIntersect,
   kSort,
+  kEnvironment,
   kSurface,
   kEmission,
   kDraw,

@@ -5,11 +5,12 @@
 
 namespace yat::YAT_ISA {
 
-void fill_generate(KernelTable& table);    ///< draw, camera rays
-void fill_surface(KernelTable& table);     ///< hits -> bins, surfaces; emission
-void fill_light(KernelTable& table);       ///< light sampling
-void fill_shade(KernelTable& table);       ///< shading and the BSDF batches, per material
-void fill_accumulate(KernelTable& table);  ///< shadow rays -> samples
+void fill_generate(KernelTable& table);     ///< draw, camera rays
+void fill_surface(KernelTable& table);      ///< hits -> bins, surfaces; emission
+void fill_light(KernelTable& table);        ///< light sampling, the kinds most scenes have
+void fill_environment(KernelTable& table);  ///< light sampling of all kinds; rays that miss
+void fill_shade(KernelTable& table);        ///< shading and the BSDF batches, per material
+void fill_accumulate(KernelTable& table);   ///< shadow rays -> samples
 void fill_traverse(KernelTable& table);
 void fill_instances(KernelTable& table);  ///< all that only scenes with shared objects need
 

@@ -17,6 +17,7 @@ const KernelTable* kernel_table() {
     fill_generate(t);
     fill_surface(t);
     fill_light(t);
+    fill_environment(t);
     fill_shade(t);
     fill_accumulate(t);
     fill_traverse(t);

@@ -5,11 +5,14 @@ namespace yat::YAT_ISA {
 
 void fill_light(KernelTable& table) {
   using A = NativeArch;
-  table.sample_lights[uint32_t(LightKind::kTriangle)] = &sample_lights<A, LightKind::kTriangle>;
-  table.sample_lights[uint32_t(LightKind::kSphere)] = &sample_lights<A, LightKind::kSphere>;
-  table.sample_lights[uint32_t(LightKind::kPoint)] = &sample_lights<A, LightKind::kPoint>;
-  table.sample_lights[uint32_t(LightKind::kDistant)] = &sample_lights<A, LightKind::kDistant>;
-  table.sample_lights[uint32_t(LightKind::kCount)] = &sample_lights<A, LightKind::kCount>;
+  table.sample_lights[uint32_t(LightKind::kTriangle)] =
+      &sample_lights<A, uint32_t(LightKind::kTriangle)>;
+  table.sample_lights[uint32_t(LightKind::kSphere)] =
+      &sample_lights<A, uint32_t(LightKind::kSphere)>;
+  table.sample_lights[uint32_t(LightKind::kPoint)] = &sample_lights<A, uint32_t(LightKind::kPoint)>;
+  table.sample_lights[uint32_t(LightKind::kDistant)] =
+      &sample_lights<A, uint32_t(LightKind::kDistant)>;
+  table.sample_lights[kPlainLights] = &sample_lights<A, kPlainLights>;
 }
 
 }  // namespace yat::YAT_ISA

@@ -7,6 +7,14 @@
 //     static Float<A> pdf(row, receiver, seen);   // kinds with a surface only
 //   };
 //
+// Kinds beyond the first kPlainLightKinds look into the scene's tables and may shine in a colour
+// that varies; `of_kind` says which lanes hold such a row (the others may hold anything):
+//
+//   template <class A> struct NAMELight {
+//     static ShadedPick<A> sample(lights, row, of_kind, receiver, far, u, v);
+//     static SeenEnvironment<A> see(lights, row, of_kind, direction);   // environments only
+//   };
+//
 // Densities are per solid angle at the receiver, without the choice of the light.
 
 #include "kernels/sampling.h"
@@ -26,6 +34,19 @@ struct LightPick {
   Float<A> pdf;      ///< solid angle; 0 where a ray cannot hit the light
 };
 
+/// A pick whose light is the row's radiance times `shade`.
+template <class A>
+struct ShadedPick : LightPick<A> {
+  ColourTriple<Float<A>> shade{Float<A>(1.f), Float<A>(1.f), Float<A>(1.f)};
+};
+
+/// What an environment shows in a direction, and the density with which sample() chooses that.
+template <class A>
+struct SeenEnvironment {
+  ColourTriple<Float<A>> shade;
+  Float<A> pdf;
+};
+
 /// A point of a light as a path hit it.
 template <class A>
 struct SeenLight {
@@ -36,6 +57,20 @@ struct SeenLight {
 template <class A>
 YAT_INLINE Vec3<A> light_a(const LightRowW<A>& row) {
   return {row.a_x, row.a_y, row.a_z};
+}
+
+/// Towards `position` [m], and the inverse square of how far it is; measure 0 at the point itself.
+template <class A>
+YAT_INLINE LightPick<A> pick_point(const Vec3<A>& position, const Vec3<A>& receiver) {
+  const Float<A> zero(0.f), one(1.f);
+  LightPick<A> pick;
+  pick.to = position;
+  const Vec3<A> way = position - receiver;
+  const Float<A> squared = dot(way, way);
+  pick.wi = (one / xsimd::sqrt(squared)) * way;
+  pick.measure = only<A>(squared > zero, one / squared);
+  pick.pdf = zero;
+  return pick;
 }
 
 }  // namespace yat::YAT_ISA

@@ -1,9 +1,16 @@
 #pragma once
 // One light and a point on it for every surface.
 
+#include "kernels/lights/constant.h"
 #include "kernels/lights/distant.h"
+#include "kernels/lights/image.h"
 #include "kernels/lights/point.h"
+#include "kernels/lights/point_map.h"
+#include "kernels/lights/projection.h"
+#include "kernels/lights/sky.h"
 #include "kernels/lights/sphere.h"
+#include "kernels/lights/spot.h"
+#include "kernels/lights/sun.h"
 #include "kernels/lights/triangle.h"
 
 namespace yat::YAT_ISA {
@@ -21,6 +28,20 @@ template <class A>
 struct LightOfKind<A, LightKind::kPoint> : PointLight<A> {};
 template <class A>
 struct LightOfKind<A, LightKind::kDistant> : DistantLight<A> {};
+template <class A>
+struct LightOfKind<A, LightKind::kSpot> : SpotLight<A> {};
+template <class A>
+struct LightOfKind<A, LightKind::kPointMap> : PointMapLight<A> {};
+template <class A>
+struct LightOfKind<A, LightKind::kProjection> : ProjectionLight<A> {};
+template <class A>
+struct LightOfKind<A, LightKind::kConstant> : ConstantLight<A> {};
+template <class A>
+struct LightOfKind<A, LightKind::kImage> : ImageLight<A> {};
+template <class A>
+struct LightOfKind<A, LightKind::kSun> : SunLight<A> {};
+template <class A>
+struct LightOfKind<A, LightKind::kSky> : SkyLight<A> {};
 
 /// Alias method (Walker 1977, Vose 1991): one number chooses the interval and, by where in it the
 /// number lies, the interval's own row or the other one.
@@ -34,30 +55,65 @@ YAT_INLINE UInt<A> choose_light(const LightView& lights, const Float<A>& u) {
   return select<A>(place - xsimd::to_float(interval) < choice.threshold, row, choice.other);
 }
 
-/// The pick of kind kKind, merged into `pick` where `of_kind` holds.
+/// The choice and the numbers of a row, for the kinds.
+template <class A>
+struct LightQuery {
+  const LightView& lights;
+  LightRowW<A> row;
+  Vec3<A> receiver;
+  Float<A> far, u, v;
+};
+
+/// The pick of kind kKind, merged into `pick` where rows are of that kind.
 template <class A, LightKind kKind>
-YAT_INLINE void pick_kind(const LightRowW<A>& row, const Vec3<A>& receiver, const Float<A>& far,
-                          const Float<A>& u, const Float<A>& v, LightPick<A>& pick) {
-  const Mask<A> of_kind = mask_of<A>(row.kind == UInt<A>(uint32_t(kKind)));
+YAT_INLINE void pick_kind(const LightQuery<A>& query, LightPick<A>& pick) {
+  const Mask<A> of_kind = mask_of<A>(query.row.kind == UInt<A>(uint32_t(kKind)));
   if (!any<A>(of_kind)) return;
-  const LightPick<A> p = LightOfKind<A, kKind>::sample(row, receiver, far, u, v);
+  const LightPick<A> p =
+      LightOfKind<A, kKind>::sample(query.row, query.receiver, query.far, query.u, query.v);
   pick.wi = select(of_kind, p.wi, pick.wi);
   pick.to = select(of_kind, p.to, pick.to);
   pick.measure = select<A>(of_kind, p.measure, pick.measure);
   pick.pdf = select<A>(of_kind, p.pdf, pick.pdf);
 }
-
-/// See KernelTable::sample_lights. kKind = kCount: any mixture.
 template <class A, LightKind kKind>
+YAT_INLINE void pick_shaded_kind(const LightQuery<A>& query, ShadedPick<A>& pick) {
+  if (!(query.lights.kinds >> uint32_t(kKind) & 1u)) return;
+  const Mask<A> of_kind = mask_of<A>(query.row.kind == UInt<A>(uint32_t(kKind)));
+  if (!any<A>(of_kind)) return;
+  const ShadedPick<A> p = LightOfKind<A, kKind>::sample(
+      query.lights, query.row, of_kind, query.receiver, query.far, query.u, query.v);
+  pick.wi = select(of_kind, p.wi, pick.wi);
+  pick.to = select(of_kind, p.to, pick.to);
+  pick.measure = select<A>(of_kind, p.measure, pick.measure);
+  pick.pdf = select<A>(of_kind, p.pdf, pick.pdf);
+  pick.shade.r = select<A>(of_kind, p.shade.r, pick.shade.r);
+  pick.shade.g = select<A>(of_kind, p.shade.g, pick.shade.g);
+  pick.shade.b = select<A>(of_kind, p.shade.b, pick.shade.b);
+}
+
+/// The pick of any of the first kPlainLightKinds kinds.
+template <class A>
+YAT_INLINE void pick_plain_kinds(const LightQuery<A>& query, LightPick<A>& pick) {
+  pick_kind<A, LightKind::kTriangle>(query, pick);
+  pick_kind<A, LightKind::kSphere>(query, pick);
+  pick_kind<A, LightKind::kPoint>(query, pick);
+  pick_kind<A, LightKind::kDistant>(query, pick);
+}
+
+/// See KernelTable::sample_lights. kKernel: a kind of light, kPlainLights or kAnyLights.
+template <class A, uint32_t kKernel>
 void sample_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
                    const Randoms<ConstColumn>& randoms, const LightSample<Column>& samples,
                    uint32_t n) noexcept {
   const LightView& lights = scene.lights;
   const bool one_light = lights.rows.count == 1;
-  LightRowW<A> row;
-  if (one_light) row = broadcast<A>(lights.rows, 0);
+  const Float<A> zero(0.f), one(1.f);
+  LightRowW<A> only_row;
+  if (one_light) only_row = broadcast<A>(lights.rows, 0);
   for (uint32_t i = 0; i < n; i += kLanes<A>) {
     const Mask<A> active = tail_mask<A>(i, n);
+    LightRowW<A> row = only_row;
     // Padding may hold anything: as an index, only a number that was drawn is safe.
     if (!one_light) {
       const Float<A> choice = only<A>(active, load<A>(randoms.light_choice, i));
@@ -65,19 +121,33 @@ void sample_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
     }
     const Vec3<A> receiver{load<A>(surfaces.pos_x, i), load<A>(surfaces.pos_y, i),
                            load<A>(surfaces.pos_z, i)};
-    const Float<A> u = load<A>(randoms.light_u, i), v = load<A>(randoms.light_v, i);
     const Float<A> far =
         Float<A>(kFarSizes) * xsimd::max(Float<A>(scene.radius), largest_magnitude(receiver));
-    LightPick<A> pick;
-    if constexpr (kKind == LightKind::kCount) {
-      const Float<A> zero(0.f);
-      pick = {{zero, zero, Float<A>(1.f)}, receiver, zero, zero};
-      pick_kind<A, LightKind::kTriangle>(row, receiver, far, u, v, pick);
-      pick_kind<A, LightKind::kSphere>(row, receiver, far, u, v, pick);
-      pick_kind<A, LightKind::kPoint>(row, receiver, far, u, v, pick);
-      pick_kind<A, LightKind::kDistant>(row, receiver, far, u, v, pick);
+    // The same for numbers: tables are searched with them.
+    const LightQuery<A> query{lights,
+                              row,
+                              receiver,
+                              far,
+                              only<A>(active, load<A>(randoms.light_u, i)),
+                              only<A>(active, load<A>(randoms.light_v, i))};
+    ShadedPick<A> pick;
+    if constexpr (kKernel >= kPlainLights) {
+      pick.wi = {zero, zero, one};
+      pick.to = receiver;
+      pick.measure = pick.pdf = zero;
+      pick_plain_kinds<A>(query, pick);
     } else {
-      pick = LightOfKind<A, kKind>::sample(row, receiver, far, u, v);
+      static_cast<LightPick<A>&>(pick) =
+          LightOfKind<A, LightKind(kKernel)>::sample(row, receiver, far, query.u, query.v);
+    }
+    if constexpr (kKernel == kAnyLights) {
+      pick_shaded_kind<A, LightKind::kSpot>(query, pick);
+      pick_shaded_kind<A, LightKind::kPointMap>(query, pick);
+      pick_shaded_kind<A, LightKind::kProjection>(query, pick);
+      pick_shaded_kind<A, LightKind::kConstant>(query, pick);
+      pick_shaded_kind<A, LightKind::kImage>(query, pick);
+      pick_shaded_kind<A, LightKind::kSun>(query, pick);
+      pick_shaded_kind<A, LightKind::kSky>(query, pick);
     }
     const Float<A> weight = pick.measure / row.probability;
     LightSample<Lanes<A>::template Of> out;
@@ -90,6 +160,11 @@ void sample_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
     out.weight_r = weight * row.radiance_r;
     out.weight_g = weight * row.radiance_g;
     out.weight_b = weight * row.radiance_b;
+    if constexpr (kKernel == kAnyLights) {
+      out.weight_r = out.weight_r * pick.shade.r;
+      out.weight_g = out.weight_g * pick.shade.g;
+      out.weight_b = out.weight_b * pick.shade.b;
+    }
     out.pdf = pick.pdf * row.probability;
     store<A>(out, samples, i);
   }

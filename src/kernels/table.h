@@ -65,7 +65,8 @@ struct TransportOptions {
   uint32_t max_depth = 16;  ///< vertex at which a path ends (lxs 4.7: 0 sees emitters only)
   uint32_t least_depth_after_scatter = 0;  ///< `direct` integrator: max_depth, so that a path goes
                                            ///< on through delta bounces only; else 0
-  uint32_t roulette_depth = 3;  ///< first vertex at which Russian roulette may end a path
+  uint32_t roulette_depth = 3;    ///< first vertex at which Russian roulette may end a path
+  bool hide_environment = false;  ///< from the camera; what it lights shows it
   uint32_t seed = 0;
 };
 
@@ -90,6 +91,11 @@ struct ShadeInput {
 };
 
 enum class GeometryKind : uint32_t { kTriangleFlat, kTriangleVertex, kSphere, kPlane, kCount };
+
+/// Light kinds that have a sampling kernel of their own: the first ones, which most scenes have.
+inline constexpr uint32_t kPlainLightKinds = 4;
+inline constexpr uint32_t kPlainLights = kPlainLightKinds, kAnyLights = kPlainLightKinds + 1;
+inline constexpr uint32_t kLightKernels = kAnyLights + 1;
 
 struct KernelTable {
   const char* isa;  ///< "avx512"
@@ -169,13 +175,17 @@ struct KernelTable {
   /// Adds emission seen at surfaces with a light row, MIS-weighted against light sampling.
   void (*add_emission)(const SceneView&, const Surface<ConstColumn>&, const PathState<ConstColumn>&,
                        const SampleSum<Column>&, DropLog&, uint32_t n) noexcept;
-  /// One light per surface. [k < LightKind::kCount]: scenes whose lights are all of kind k;
-  /// [kCount]: any mixture.
-  void (*sample_lights[uint32_t(LightKind::kCount) + 1])(const SceneView&,
-                                                         const Surface<ConstColumn>&,
-                                                         const Randoms<ConstColumn>&,
-                                                         const LightSample<Column>&,
-                                                         uint32_t n) noexcept;
+  /// What rows order[0..n) that missed everything see of the environment: the rows' hits say which
+  /// did, the others are left alone. MIS-weighted against light sampling.
+  void (*add_environment)(const SceneView&, const uint32_t* order, const Ray<ConstColumn>&,
+                          const Hit<ConstColumn>&, const PathState<ConstColumn>&,
+                          const TransportOptions&, const SampleSum<Column>&, DropLog&,
+                          uint32_t n) noexcept;
+  /// One light per surface. [k < kPlainLightKinds]: scenes whose lights are all of kind k;
+  /// [kPlainLights]: any mixture of those kinds; [kAnyLights]: of all kinds.
+  void (*sample_lights[kLightKernels])(const SceneView&, const Surface<ConstColumn>&,
+                                       const Randoms<ConstColumn>&, const LightSample<Column>&,
+                                       uint32_t n) noexcept;
   /// Direct light (if input.lights is given) and the next ray.
   void (*shade[kMaterialKinds])(const ShadeInput&, const TransportOptions&, ShadeOutput&, DropLog&,
                                 uint32_t n) noexcept;

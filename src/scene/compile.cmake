@@ -7,6 +7,7 @@ target_sources(
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_camera.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_coated.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_diffuse.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_environment.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_film.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_filter.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_fresnel.cpp
@@ -18,9 +19,15 @@ target_sources(
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_metals.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_objects.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_place.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_point_lights.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_shapes.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_sky.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_textures.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/data_files.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/daylight.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/ies.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/instances.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/light_maps.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/light_pictures.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/material_traits.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/parameters.cpp)

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "scene/compile_objects.h"
+#include "scene/light_maps.h"
 
 namespace yat {
 
@@ -60,6 +61,7 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   const IntegratorSettings integrator = compile_integrator(description.integrator, diagnostics);
   scene.max_depth = integrator.max_depth;
   scene.direct_only = integrator.direct_only;
+  scene.show_environment = integrator.show_environment;
   accept_silently(description.sampler);
   const bool kd_tree = wants_kd_tree(description.accelerator, options.tree, diagnostics);
   accept_silently(description.renderer);
@@ -95,18 +97,20 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   rows.finish(keys, scene, occludes);
   objects.finish(keys, scene, rows.lights());
   shapes.materials().finish(scene);
-  if (scene.prim_bin.empty() && scene.instances.empty())
+  std::vector<LightRow<Value>> lights = std::move(rows.lights());
+  LightTables light_tables;
+  for (const LightEntry& light : description.lights)
+    compile_light(light, description, scene.colour, scene.center, light_tables, lights,
+                  diagnostics);
+  finish_lights(std::move(lights), light_tables, double(scene.radius), scene);
+  if (scene.prim_bin.empty() && scene.instances.empty() &&
+      scene.first_environment == scene.lights.size())
     diagnostics.fail({}, description.shapes.empty()
                              ? "the scene is empty: it has no Shape"
                              : fmt::format("nothing to render: none of the {} shapes can be seen",
                                            description.shapes.size()));
-
-  std::vector<LightRow<Value>> lights = std::move(rows.lights());
-  for (const LightEntry& light : description.lights)
-    compile_light(light, description, scene.colour, scene.center, lights, diagnostics);
-  if (lights.empty())
+  if (scene.lights.size() == 0)
     diagnostics.warning({}, "the scene has no light that can be used: the picture will be black");
-  finish_lights(std::move(lights), double(scene.radius), scene);
 
   if (scene.triangles.size() > 0)
     scene.tree =
@@ -127,6 +131,13 @@ SceneView Scene::view() const {
   view.lights.rows = lights.view();
   view.lights.choice = light_choice.view();
   view.lights.kinds = light_kinds;
+  view.lights.first_environment = first_environment;
+  view.lights.maps = light_maps.view();
+  view.lights.skies = skies.view();
+  view.lights.texels = light_texels.data();
+  view.lights.cells = light_cells.data();
+  view.lights.search_step = light_search_step;
+  view.lights.basis = colour.light;
   view.camera = camera;
   view.filter = filter;
   view.radius = radius;
@@ -144,6 +155,7 @@ size_t Scene::bytes() const {
   size_t sum = triangles.bytes() + triangle_vertices.bytes() + spheres.bytes() + planes.bytes() +
                prim_bin.bytes() + tree.bytes() + instances.object_bytes() +
                instances.instance_bytes() + lights.bytes() + light_choice.bytes() +
+               light_maps.bytes() + skies.bytes() + light_texels.bytes() + light_cells.bytes() +
                filter_quantile_x.bytes() + filter_quantile_y.bytes() + filter_marginal.bytes() +
                filter_conditional.bytes() + filter_sign.bytes();
   for (const auto& table : parameters) sum += table.bytes();

@@ -65,6 +65,7 @@ struct Scene {
   ColourModel colour = colour_model(ColourMode::kBands);  ///< of all colours below
   int32_t max_depth = 16;                                 ///< from SurfaceIntegrator
   bool direct_only = false;                               ///< SurfaceIntegrator "directlighting"
+  bool show_environment = true;                           ///< to camera rays
   uint64_t hash = 0;                                      ///< of the scene text
 
   RowTable<TriangleRow> triangles;
@@ -76,6 +77,9 @@ struct Scene {
   Instances instances;
   RowTable<LightRow> lights;
   RowTable<LightChoice> light_choice;
+  RowTable<LightMapRow> light_maps;
+  RowTable<SkyRow> skies;
+  AlignedArray<float> light_texels, light_cells;
   std::array<AlignedArray<uint32_t>, kMaterialKinds> parameters;  ///< row_words<its record> per row
   std::array<uint32_t, kMaterialKinds> parameter_rows{};
   AlignedArray<float> filter_quantile_x, filter_quantile_y;
@@ -87,6 +91,8 @@ struct Scene {
   /// surface or, where it is see-through, of what lies behind.
   uint32_t first_lasting_bin = 1;
   uint32_t light_kinds = 0;
+  uint32_t first_environment = 0;  ///< row of lights: from there on rays that miss find them
+  uint32_t light_search_step = 0;
   bool all_occlude = true;
   bool thin_lens = false;
   uint32_t shapes_read = 0, degenerate_triangles = 0;

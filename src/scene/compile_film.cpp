@@ -238,9 +238,7 @@ IntegratorSettings compile_integrator(const std::optional<Plugin>& integrator,
   };
   if (type == "path") {
     settings.max_depth = depth("maxdepth", 16);
-    if (!p.flag("includeenvironment", true))
-      diagnostics.warning(p.loc("includeenvironment"),
-                          "\"includeenvironment\" false is not supported");
+    settings.show_environment = p.flag("includeenvironment", true);
     p.accept({"rrstrategy", "rrcontinueprob", "directlightsampling", "shadowraycount",
               "lightstrategy", "strategy"});
   } else if (type == "bidirectional") {

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
 #include "scene/alias_table.h"
-#include "scene/compile_parts.h"
+#include "scene/light_compiler.h"
 
 namespace yat {
 
@@ -16,11 +17,12 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A colour of a light: L, and L times gain, with negative and non-finite channels as 0.
-struct LightColor {
-  glm::dvec3 bands;  ///< of L times gain
-  double y;          ///< luminance of L, without gain
-};
+bool is_black(const LightRow<Value>& row) {
+  return !(row.radiance_r > 0 || row.radiance_g > 0 || row.radiance_b > 0);
+}
+
+}  // namespace
+
 LightColor light_color(Parameters& p, const Description& description, const ColourModel& colour) {
   const glm::dvec3 given = color_parameter(p, "L", glm::dvec3(1.), description);
   const auto gain = double(p.number("gain", 1));
@@ -39,6 +41,17 @@ LightColor light_color(Parameters& p, const Description& description, const Colo
   return {to_bands(color, colour.light), luminance(to_rgb(own, colour.film))};
 }
 
+glm::dvec3 light_intensity(LightContext& light, double solid_angle) {
+  const LightColor color = light_color(light.p, light.description, light.colour);
+  const double lumen = double(light.p.number("power", 0)) * double(light.p.number("efficacy", 0));
+  if (!(lumen > 0)) return color.bands;
+  const double k = lumen / (solid_angle * color.y);
+  if (std::isfinite(k) && k > 0) return color.bands * k;
+  light.p.diagnostics().warning(light.loc(),
+                                "the light has power but \"L\" is black: it does not shine");
+  return color.bands;
+}
+
 LightRow<Value> light_row(LightKind kind, const glm::dvec3& radiance) {
   LightRow<Value> row{};
   row.kind = uint32_t(kind);
@@ -48,87 +61,24 @@ LightRow<Value> light_row(LightKind kind, const glm::dvec3& radiance) {
   return row;
 }
 
-bool is_black(const LightRow<Value>& row) {
-  return !(row.radiance_r > 0 || row.radiance_g > 0 || row.radiance_b > 0);
+float row_bits(size_t row) {
+  return std::bit_cast<float>(uint32_t(row));
+}
+uint32_t row_of_bits(float bits) {
+  return std::bit_cast<uint32_t>(bits);
 }
 
-/// A matrix applied to a point, its last row taken as 0 0 0 w (lxs section 11).
 glm::dvec3 transform_point(const Matrix& m, const glm::dvec3& p) {
   const glm::dvec4 q = m * glm::dvec4(p, 1.);
   return glm::dvec3(q) / q.w;
 }
 
-bool is_finite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+void LightContext::add(const LightRow<Value>& row) {
+  if (is_black(row))
+    p.diagnostics().warning(loc(), fmt::format("{} is black: left out", p.what()));
+  else
+    rows.push_back(row);
 }
-
-std::optional<LightRow<Value>> point_light(Parameters& p, const LightEntry& entry,
-                                           const Description& description,
-                                           const ColourModel& colour, const glm::dvec3& center) {
-  auto [intensity, y] = light_color(p, description, colour);
-  const double lumen = double(p.number("power", 0)) * double(p.number("efficacy", 0));
-  const glm::dvec3 from = p.triple("from", ParameterType::kPoint, glm::dvec3(0.));
-  p.unsupported({"mapname", "iesname"}, "the light shines evenly in all directions");
-  p.accept({"flipz", "importance", "nsamples"});
-  if (lumen > 0) {
-    const double k = lumen / (4 * kPi * y);
-    if (std::isfinite(k) && k > 0)
-      intensity *= k;
-    else
-      p.diagnostics().warning(p.plugin().loc,
-                              "the light has power but \"L\" is black: it does not shine");
-  }
-  // Light to world is T(from) * CTM: `from` is neither turned nor scaled.
-  const glm::dvec3 position = from + transform_point(entry.to_world, glm::dvec3(0.)) - center;
-  if (!is_finite(position)) {
-    p.diagnostics().error(p.plugin().loc, "the light has no finite position: left out");
-    return std::nullopt;
-  }
-  LightRow<Value> row = light_row(LightKind::kPoint, intensity);
-  row.a_x = float(position.x);
-  row.a_y = float(position.y);
-  row.a_z = float(position.z);
-  return row;
-}
-
-std::optional<LightRow<Value>> distant_light(Parameters& p, const LightEntry& entry,
-                                             const Description& description,
-                                             const ColourModel& colour) {
-  const glm::dvec3 irradiance = light_color(p, description, colour).bands;
-  const glm::dvec3 from = p.triple("from", ParameterType::kPoint, glm::dvec3(0.));
-  const glm::dvec3 to = p.triple("to", ParameterType::kPoint, glm::dvec3(0., 0., 1.));
-  auto theta = double(p.number("theta", 0));
-  p.accept({"importance", "nsamples"});
-  if (!(theta >= 0 && theta <= 90)) {
-    p.diagnostics().warning(p.loc("theta"),
-                            fmt::format("\"theta\" is {} degrees, but must be from 0 to 90: 0 is "
-                                        "used",
-                                        theta));
-    theta = 0;
-  }
-  const glm::dvec3 way =
-      transform_point(entry.to_world, from) - transform_point(entry.to_world, to);
-  const double length = glm::length(way);
-  if (!(length > 0) || !std::isfinite(length)) {
-    p.diagnostics().error(p.plugin().loc,
-                          "light \"distant\" has no direction (\"from\" and \"to\" "
-                          "are the same point): left out");
-    return std::nullopt;
-  }
-  // The cosine as stored decides the solid angle, so that the irradiance is right however small the
-  // disc; where it rounds to 1 the light is a direction.
-  const auto cosine = float(std::cos(theta * kPi / 180));
-  LightRow<Value> row =
-      cosine < 1 ? light_row(LightKind::kDistant, irradiance / (2 * kPi * (1 - double(cosine))))
-                 : light_row(LightKind::kDistant, irradiance);
-  row.a_x = float(way.x / length);
-  row.a_y = float(way.y / length);
-  row.a_z = float(way.z / length);
-  row.extra = cosine;
-  return row;
-}
-
-}  // namespace
 
 std::optional<AreaLight> compile_area_light(const AreaLightEntry& entry,
                                             const Description& description,
@@ -167,54 +117,80 @@ glm::dvec3 area_light_radiance(const AreaLight& light, double area, Diagnostics&
 }
 
 void compile_light(const LightEntry& entry, const Description& description,
-                   const ColourModel& colour, const glm::dvec3& center,
+                   const ColourModel& colour, const glm::dvec3& center, LightTables& tables,
                    std::vector<LightRow<Value>>& rows, Diagnostics& diagnostics) {
-  const Plugin& plugin = entry.plugin;
-  Parameters p(plugin, "light \"" + plugin.type + "\"", diagnostics);
-  std::optional<LightRow<Value>> row;
-  if (plugin.type == "point" || plugin.type == "goniometric") {
-    row = point_light(p, entry, description, colour, center);
-  } else if (plugin.type == "distant") {
-    row = distant_light(p, entry, description, colour);
+  const std::string& type = entry.plugin.type;
+  Parameters p(entry.plugin, "light \"" + type + "\"", diagnostics);
+  p.accept({"importance", "nsamples"});
+  LightContext light{p, entry, description, colour, center, tables, rows};
+  if (type == "point" || type == "goniometric") {
+    compile_point(light);
+  } else if (type == "spot") {
+    compile_spot(light);
+  } else if (type == "projection") {
+    compile_projection(light);
+  } else if (type == "distant") {
+    compile_distant(light);
+  } else if (type == "infinite" || type == "infinitesample") {
+    compile_infinite(light);
+  } else if (type == "sun") {
+    compile_sun(light);
+  } else if (type == "sky" || type == "sky2") {
+    compile_sky(light);
+  } else if (type == "sunsky" || type == "sunsky2") {
+    compile_sun(light);
+    compile_sky(light);
   } else {
     static const std::vector<std::string_view> kKnown = {
         "point",          "goniometric", "distant", "spot", "projection", "infinite",
         "infinitesample", "sun",         "sky",     "sky2", "sunsky",     "sunsky2"};
-    if (std::find(kKnown.begin(), kKnown.end(), plugin.type) != kKnown.end())
-      diagnostics.warning(plugin.loc,
-                          fmt::format("light \"{}\" is not yet supported: left out", plugin.type));
-    else
-      diagnostics.error(plugin.loc, fmt::format("unknown light \"{}\"{}: left out", plugin.type,
-                                                did_you_mean(plugin.type, kKnown)));
+    diagnostics.error(entry.plugin.loc, fmt::format("unknown light \"{}\"{}: left out", type,
+                                                    did_you_mean(type, kKnown)));
     p.accept_all();
   }
   p.report_unused();
-  if (row && is_black(*row))
-    diagnostics.warning(plugin.loc, fmt::format("{} is black: left out", p.what()));
-  else if (row)
-    rows.push_back(*row);
 }
 
 double light_power(const LightRow<Value>& light, const ColourModel& colour, double scene_radius) {
   const glm::dvec3 bands(light.radiance_r, light.radiance_g, light.radiance_b);
   const double y = luminance(to_rgb(bands, colour.film));
   const auto extra = double(light.extra);
+  // What passes through the scene of an environment of mean luminance 1.
+  const double cross_section = kPi * scene_radius * scene_radius, sphere = 4 * kPi;
   switch (LightKind(light.kind)) {
     case LightKind::kTriangle:
       return kPi * extra * y;
     case LightKind::kSphere:
-      return kPi * 4 * kPi * extra * extra * y;
+      return kPi * sphere * extra * extra * y;
     case LightKind::kPoint:
-      return 4 * kPi * y;
+    case LightKind::kPointMap:
+      return sphere * y;
     case LightKind::kDistant:
-      return kPi * scene_radius * scene_radius * (extra < 1 ? 2 * kPi * (1 - extra) * y : y);
+      return cross_section * (extra < 1 ? 2 * kPi * (1 - extra) * y : y);
+    case LightKind::kSpot:
+      return 2 * kPi * (1 - extra - .5 / double(light.c_x)) * y;
+    case LightKind::kProjection:
+      return double(light.b_z) * y;
+    case LightKind::kConstant:
+      return cross_section * sphere * y;
+    case LightKind::kImage:
+    case LightKind::kSky:
+      return cross_section * sphere * extra;
+    case LightKind::kSun:
+      return cross_section * 2 * kPi * extra * y;
     case LightKind::kCount:
       break;
   }
   return 0;
 }
 
-void finish_lights(std::vector<LightRow<Value>> rows, double scene_radius, Scene& scene) {
+void finish_lights(std::vector<LightRow<Value>> rows, const LightTables& tables,
+                   double scene_radius, Scene& scene) {
+  // Rows of triangles are known to their triangles: environments go to the end, the rest stays.
+  const auto environments = std::stable_partition(
+      rows.begin(), rows.end(),
+      [](const LightRow<Value>& row) { return row.kind < kFirstEnvironment; });
+  scene.first_environment = uint32_t(environments - rows.begin());
   std::vector<double> power;
   for (const LightRow<Value>& row : rows)
     power.push_back(light_power(row, scene.colour, scene_radius));
@@ -228,6 +204,18 @@ void finish_lights(std::vector<LightRow<Value>> rows, double scene_radius, Scene
     scene.light_choice.set(i, table.choice[i]);
     scene.light_kinds |= 1u << rows[i].kind;
   }
+
+  scene.light_maps.resize(uint32_t(tables.maps.size()));
+  uint32_t most_cells = 0;
+  for (uint32_t i = 0; i < tables.maps.size(); ++i) {
+    scene.light_maps.set(i, tables.maps[i]);
+    most_cells = std::max({most_cells, tables.maps[i].columns, tables.maps[i].rows});
+  }
+  scene.light_search_step = std::bit_floor(most_cells);
+  scene.skies.resize(uint32_t(tables.skies.size()));
+  for (uint32_t i = 0; i < tables.skies.size(); ++i) scene.skies.set(i, tables.skies[i]);
+  if (!tables.texels.empty()) scene.light_texels = std::span<const float>(tables.texels);
+  if (!tables.cells.empty()) scene.light_cells = std::span<const float>(tables.cells);
 }
 
 }  // namespace yat

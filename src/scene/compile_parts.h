@@ -21,6 +21,13 @@ inline double luminance(const glm::dvec3& c) {
   return .21264 * c.x + .71517 * c.y + .07219 * c.z;
 }
 
+/// CIE XYZ -> linear Rec.709 (lxs section 9).
+inline glm::dvec3 xyz_to_rec709(const glm::dvec3& c) {
+  return {3.24097 * c.x - 1.53738 * c.y - .49861 * c.z,
+          -.96924 * c.x + 1.87597 * c.y + .04156 * c.z,
+          .05563 * c.x - .20398 * c.y + 1.05697 * c.z};
+}
+
 // ---- Rendering options (lxs 3, 4) ------------------------------------------------------------
 
 FilmSettings compile_film(const Description& description, const CompileOptions& options,
@@ -47,6 +54,7 @@ glm::dvec3 camera_position(const Description& description);
 struct IntegratorSettings {
   int32_t max_depth = 16;
   bool direct_only = false;
+  bool show_environment = true;  ///< to camera rays
 };
 IntegratorSettings compile_integrator(const std::optional<Plugin>& integrator,
                                       Diagnostics& diagnostics);
@@ -239,16 +247,18 @@ struct Bounds {
   double radius() const { return empty() ? 0 : .5 * glm::length(max - min); }
 };
 
-/// Appends point and distant lights to `rows`.
+struct LightTables;
+/// Appends the rows of a LightSource, and what they need in tables.
 void compile_light(const LightEntry& entry, const Description& description,
-                   const ColourModel& colour, const glm::dvec3& center,
+                   const ColourModel& colour, const glm::dvec3& center, LightTables& tables,
                    std::vector<LightRow<Value>>& rows, Diagnostics& diagnostics);
 
 /// Emitted power [W, luminance-weighted] of a light row: what it is chosen by.
 double light_power(const LightRow<Value>& light, const ColourModel& colour, double scene_radius);
 
 /// Fills the scene's light tables (its colour model must be set): probabilities by power, alias
-/// table.
-void finish_lights(std::vector<LightRow<Value>> rows, double scene_radius, Scene& scene);
+/// table, maps.
+void finish_lights(std::vector<LightRow<Value>> rows, const LightTables& tables,
+                   double scene_radius, Scene& scene);
 
 }  // namespace yat

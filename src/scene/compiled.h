@@ -9,6 +9,7 @@
 
 #include <cstdint>
 
+#include "kernels/colour_bands.h"
 #include "soa/columns.h"
 #include "soa/fields.h"
 
@@ -151,16 +152,56 @@ struct InstancesView {
 
 // ---- Lights ----------------------------------------------------------------------------------
 
-enum class LightKind : uint32_t { kTriangle, kSphere, kPoint, kDistant, kCount };
+/// Kinds of lights. Those from kFirstEnvironment on lie infinitely far away and are found by rays
+/// that leave the scene; spots, maps and projections are points that no ray finds.
+enum class LightKind : uint32_t {
+  kTriangle,
+  kSphere,
+  kPoint,
+  kDistant,
+  kSpot,
+  kPointMap,
+  kProjection,
+  kConstant,
+  kImage,
+  kSun,
+  kSky,
+  kCount
+};
+inline constexpr uint32_t kFirstEnvironment = uint32_t(LightKind::kConstant);
+inline constexpr const char* kLightKindNames[] = {"triangle",
+                                                  "sphere",
+                                                  "point",
+                                                  "distant",
+                                                  "spot",
+                                                  "mapped point",
+                                                  "projection",
+                                                  "constant environment",
+                                                  "image environment",
+                                                  "sun",
+                                                  "sky"};
+static_assert(sizeof(kLightKindNames) / sizeof(*kLightKindNames) == uint32_t(LightKind::kCount));
 
-/// One light: one emissive triangle, a sphere, a point, a direction. Fields by kind:
-///   triangle  a = p0, b = p1 - p0, c = p2 - p0 (b x c points where it shines), extra = area [m2];
-///             in an instance, further = what the rounding of its transform adds to the distance
-///             that a ray keeps off it [m]
-///   sphere    a = centre, extra = radius, b_x = 1 if it shines inwards
-///   point     a = position; radiance holds intensity [W/sr]
-///   distant   a = unit direction towards the light; radiance holds the irradiance on a surface
-///             that faces it (theta 0), or radiance of a disc with cos(theta) in extra < 1
+/// One light: one emissive triangle, a sphere, a point, a direction, an environment. Fields by
+/// kind:
+///   triangle    a = p0, b = p1 - p0, c = p2 - p0 (b x c points where it shines), extra = area
+///   [m2];
+///               in an instance, further = what the rounding of its transform adds to the distance
+///               that a ray keeps off it [m]
+///   sphere      a = centre, extra = radius, b_x = 1 if it shines inwards
+///   point       a = position; radiance holds intensity [W/sr]
+///   distant     a = unit direction towards the light; radiance holds the irradiance on a surface
+///               that faces it (theta 0), or radiance of a disc with cos(theta) in extra < 1
+///   spot        a = position, b = unit axis, extra = cosine of the cone, c_x = 1 / (cosine where
+///               the falloff begins - extra), finite; radiance holds intensity on the axis
+///   mapped point  a = position, extra = the map's mean, c_x = map row (as bits); radiance holds
+///   the mean intensity projection  a = position, c_x = map row (as bits), b_x, b_y = half of the
+///   window at distance 1,
+///               b_z = flux of a white picture of intensity scale 1, extra = 1 / LuxRender's area
+///   constant    radiance alone
+///   image       c_x = map row (as bits), extra = mean luminance, radiance included
+///   sun         a = unit direction towards its middle, extra = 1 - cos(its angular radius)
+///   sky         c_x = map row, b_x = sky row (as bits), extra = mean luminance, radiance included
 template <template <class> class Of>
 struct LightRow {
   Of<float> a_x, a_y, a_z, b_x, b_y, b_z, c_x, c_y, c_z;
@@ -184,10 +225,59 @@ struct LightChoice {
 };
 static_assert(all_fields_listed<LightChoice>);
 
+/// How a picture is laid over directions of light space (lxs 6.4); phi from +x towards +y.
+enum class MapLayout : uint32_t {
+  kLatLong,  ///< s = phi / 2 pi, t = theta / pi from +z: row 0 is the zenith
+  kAngular,  ///< a disc about -x
+  kCross,    ///< the six sides of a cube in 3 x 4 cells
+};
+
+/// A map of a light: its place in the scene, its texels, and the cells that directions are drawn
+/// by. Cells divide the lat-long square of light space, whatever the picture's layout. Their table
+/// at LightView::cells + cells: rows + 1 cumulative values, then for each row columns + 1 of them.
+template <template <class> class Of>
+struct LightMapRow {
+  Of<float> m_xx, m_xy, m_xz, m_yx, m_yy, m_yz, m_zx, m_zy, m_zz;  ///< scene -> light, |det| = 1
+  Of<uint32_t> layout;                                             ///< MapLayout
+  Of<uint32_t> texels, width, height;  ///< first texel in LightView::texels, and how many
+  Of<uint32_t> cells, columns, rows;   ///< columns = 0: no directions are drawn by this map
+  YAT_FIELDS(m_xx, m_xy, m_xz, m_yx, m_yy, m_yz, m_zx, m_zy, m_zz, layout, texels, width, height,
+             cells, columns, rows)
+};
+static_assert(all_fields_listed<LightMapRow>);
+
+/// Words of a texel in LightView::texels: three bands and one that is not used.
+inline constexpr uint32_t kTexelWords = 4;
+
+/// A clear sky as a formula (Preetham, Shirley, Smits 1999; lxs 6.5): luminance and chromaticities
+/// are q = scale_q (1 + a e^(b / cos theta)) (1 + c e^(d gamma) + e cos^2 gamma), never below 0.
+template <template <class> class Of>
+struct SkyRow {
+  Of<float> a_l, b_l, c_l, d_l, e_l, a_x, b_x, c_x, d_x, e_x, a_y, b_y, c_y, d_y, e_y;
+  Of<float> scale_l, scale_x, scale_y;
+  Of<float> sun_x, sun_y, sun_z;  ///< unit, light space
+  YAT_FIELDS(a_l, b_l, c_l, d_l, e_l, a_x, b_x, c_x, d_x, e_x, a_y, b_y, c_y, d_y, e_y, scale_l,
+             scale_x, scale_y, sun_x, sun_y, sun_z)
+};
+static_assert(all_fields_listed<SkyRow>);
+/// Angles to the zenith end there [radians below a right angle]: all that is below has the colour
+/// of the horizon.
+inline constexpr float kSkyHorizon = .001f;
+/// Its exponents are not above this, which only odd constants would have them be.
+inline constexpr float kSkyExponent = 40;
+
 struct LightView {
-  Rows<LightRow> rows;
+  Rows<LightRow> rows;  ///< those of environments last
   Rows<LightChoice> choice;
-  uint32_t kinds = 0;  ///< bit k set: LightKind k is present
+  uint32_t kinds = 0;              ///< bit k set: LightKind k is present
+  uint32_t first_environment = 0;  ///< row of the first light that rays leaving the scene find
+  // What lights with a map need; empty without.
+  Rows<LightMapRow> maps;
+  Rows<SkyRow> skies;
+  const float* texels = nullptr;  ///< kTexelWords each, rows of a map from the top
+  const float* cells = nullptr;
+  uint32_t search_step = 0;  ///< largest power of two not above any count of columns or rows
+  BandBasis basis{};         ///< of lights: bands of colours that kernels compute
 };
 
 // ---- Camera ----------------------------------------------------------------------------------

@@ -14,10 +14,11 @@ namespace {
 
 constexpr std::string_view kGeometryNames[] = {"triangle_flat", "triangle_vertex", "sphere",
                                                "plane"};
-constexpr std::string_view kLightNames[] = {"triangle", "sphere", "point", "distant", "mixed"};
+constexpr std::string_view kLightNames[] = {"triangle", "sphere", "point",
+                                            "distant",  "mixed",  "any"};
 constexpr std::string_view kSamplerNames[] = {"independent", "sobol"};
 static_assert(std::size(kGeometryNames) == uint32_t(GeometryKind::kCount));
-static_assert(std::size(kLightNames) == uint32_t(LightKind::kCount) + 1);
+static_assert(std::size(kLightNames) == kLightKernels);
 static_assert(std::size(kSamplerNames) == uint32_t(SamplerKind::kCount));
 
 /// A table without a kernel that the plan wants is a mistake in the program, not in the scene.
@@ -46,6 +47,7 @@ void need_kernels(const Plan& plan) {
     need(k.sample_lights[plan.light_kernel], k, "sample_lights");
     need(k.add_unoccluded, k, "add_unoccluded");
   }
+  if (plan.environment) need(k.add_environment, k, "add_environment");
   for (uint32_t b = 1; b < plan.bins.size(); ++b) {
     const BinPlan& bin = plan.bins[b];
     if (bin.bin.instanced)
@@ -78,9 +80,12 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
 
   // Light is sampled at vertices below max_depth only.
   plan.lights = scene.lights.size() > 0 && options.max_depth > 0;
-  plan.light_kernel = std::popcount(scene.light_kinds) == 1
+  plan.light_kernel = scene.light_kinds >> kPlainLightKinds ? kAnyLights
+                      : std::popcount(scene.light_kinds) == 1
                           ? uint32_t(std::countr_zero(scene.light_kinds))
-                          : uint32_t(LightKind::kCount);
+                          : kPlainLights;
+  plan.environment = scene.first_environment < scene.lights.size();
+  plan.transport.hide_environment = !scene.show_environment;
   // Scattering vertices beyond the first that plays roulette are needed for it to be played.
   const bool roulette = plan.transport.max_depth > plan.transport.roulette_depth;
 
@@ -128,6 +133,10 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   line(Stage::kSort,
        fmt::format("{}: {} bins", plan.instances ? "classify_instance_hits" : "classify_hits",
                    plan.bins.size() - 1));
+  if (plan.environment)
+    line(Stage::kEnvironment,
+         fmt::format("add_environment: {} lights{}", scene.lights.size() - scene.first_environment,
+                     plan.transport.hide_environment ? ", not to camera rays" : ""));
   for (uint32_t b = 1; b < plan.bins.size(); ++b) {
     const BinPlan& bin = plan.bins[b];
     std::string what = fmt::format("bin {}, {} primitives: {} {}", b, bin.bin.primitives,
@@ -175,6 +184,7 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   skipped(plan.thin_lens, "draw lens", "the camera is a pinhole");
   skipped(plan.shadow_mask || !plan.lights, "intersect_shadow (masked)",
           "every triangle stops shadow rays");
+  skipped(plan.environment, "add_environment", "no light lies around the scene");
   skipped(any_bin([](const BinPlan& b) { return b.emission; }), "add_emission",
           "no surface emits light");
   if (!plan.lights)

@@ -38,6 +38,7 @@ struct Plan {
   bool shadow_mask = false;    ///< some triangle is see-through: the masked any-hit kernel
   uint32_t light_kernel = 0;   ///< index into KernelTable::sample_lights
   bool lights = false;
+  bool environment = false;  ///< lights that rays find which leave the scene
 };
 
 struct PlanOptions {

@@ -107,7 +107,15 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
   Vec scattered_at(0.0);     // last scattering vertex
   for (;;) {
     const std::optional<Point> hit = nearest(scene, ray);
-    if (!hit) break;
+    if (!hit) {
+      if (options.hide_environment && vertex == 0) break;
+      for (uint32_t i = scene.first_environment; i < scene.lights.size(); ++i) {
+        const SeenEnvironment seen = see_environment(scene, i, ray.direction);
+        const double weight = scattered_pdf > 0 ? power_heuristic(scattered_pdf, seen.pdf) : 1;
+        radiance += throughput * seen.radiance * weight;
+      }
+      break;
+    }
     const MaterialKind material = scene.bins[hit->bin].material;
     const Vec wo = -ray.direction;
 

@@ -95,4 +95,11 @@ LightPoint sample_light(const Scene& scene, const Vec& receiver, float choice, d
 double light_pdf(const Scene& scene, const Vec& receiver, const Point& at, double cos);
 Vec light_radiance(const Scene& scene, uint32_t light);
 
+/// What an environment light shows in direction w (unit).
+struct SeenEnvironment {
+  Vec radiance;
+  double pdf;  ///< with which sample_light chooses w for this light, choice included
+};
+SeenEnvironment see_environment(const Scene& scene, uint32_t light, const Vec& w);
+
 }  // namespace yat::reference

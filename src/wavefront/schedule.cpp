@@ -70,6 +70,7 @@ void Worker::turn() {
   out_.finished = batch_.finished.data();
   intersect();
   sort();
+  if (plan_.environment) environment();
   shade();
   if (out_.shadow_count) shadow();
   accumulate();
@@ -148,6 +149,17 @@ void Worker::sort() {
   uint32_t* order = batch_.order.data();
   for (i = 0; i < count_; ++i) order[place[bin[i]]++] = i;
   count(Stage::kSort, count_);
+}
+
+void Worker::environment() {
+  // Among the rows of the ended bin are those that missed: the kernel tells them by their hits.
+  const uint32_t n = bin_begin_[1];
+  if (!n) return;
+  clock_.enter(Stage::kEnvironment, n);
+  kernels_.add_environment(view_, batch_.order.data(), batch_.rays[current_].view(),
+                           batch_.hits.view(), batch_.paths[current_].view(), plan_.transport,
+                           batch_.sums.columns(), counted_.drops, n);
+  count(Stage::kEnvironment, n);
 }
 
 void Worker::shade() {

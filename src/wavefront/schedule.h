@@ -82,6 +82,7 @@ class Worker {
  private:
   void intersect();
   void sort();
+  void environment();
   void shade();
   void shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end);
   void draw(Dimension dimension, float* first, float* second, uint32_t n);

@@ -20,7 +20,9 @@ struct StageInfo {
 inline constexpr std::array<StageInfo, kStages> kStageList = {{
     {Stage::kGenerate, "free slots", "CameraSample", "Ray, PathState, SampleSum", "intersect"},
     {Stage::kIntersect, "paths under way", "Ray", "Hit", "sort"},
-    {Stage::kSort, "paths under way", "Hit, PathState", "bin, order", "surface, accumulate"},
+    {Stage::kSort, "paths under way", "Hit, PathState", "bin, order",
+     "environment, surface, accumulate"},
+    {Stage::kEnvironment, "paths that missed", "Ray, Hit, PathState", "SampleSum", ""},
     {Stage::kSurface, "a chunk of a bin", "Ray, Hit, PathState", "Surface, PathState",
      "emission, draw, sample_lights, shade"},
     {Stage::kEmission, "a chunk of an emissive bin", "Surface, PathState", "SampleSum", ""},
