@@ -54,6 +54,7 @@ Tree build_tree(const Rows<TriangleRow>& triangles, std::span<const uint8_t> occ
   pool.run([&] {
     const auto best = best_tree(triangles, options, pool.threads(), out.statistics);
     if (best->root.count == 0) return;
+    if (out.statistics.shape != TreeShape::kKd) part_large_leaves(triangles, *best);
     // Leaves have their rows: the references can go before the tree comes.
     best->storage->drop_references();
     for (const auto& storage : best->more) storage->drop_references();

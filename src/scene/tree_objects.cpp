@@ -182,6 +182,7 @@ struct Small {
   NodeArena& arena;
   std::span<const Reference> references;
   uint32_t* rows;
+  bool whatever_price;  ///< down to single references
   uint8_t order[3][kSmallSet];
 
   void sort() {
@@ -238,7 +239,8 @@ struct Small {
         }
       }
     }
-    if (count <= limit && !(best < local.leaf(count))) return leaf(first, count, node);
+    const bool worth = best < (whatever_price ? HUGE_VALF : local.leaf(count));
+    if (count <= limit && !worth) return leaf(first, count, node);
     // The other orders follow: stable, so that they stay sorted.
     uint64_t lower = 0;
     for (size_t i = 0; i < count; ++i) {
@@ -274,10 +276,42 @@ struct Small {
 
 void build_small(const Set& set, uint32_t depth, const Prices& prices, NodeArena& arena,
                  BinaryNode& node) {
-  Small small{prices, arena, set.references(), set.rows(), {}};
+  Small small{prices, arena, set.references(), set.rows(), false, {}};
   small.sort();
   node.box = set.box;
   small.build(0, set.count, depth, node);
+}
+
+namespace {
+
+void part_large_leaves(const Rows<TriangleRow>& triangles, BinaryTree& tree, BinaryNode& node,
+                       uint32_t depth) {
+  if (!(node.box.area() >= Prices::kManyRays * tree.prices.root_area)) return;
+  if (!node.leaf()) {
+    const auto lower = [&] { part_large_leaves(triangles, tree, node.children[0], depth + 1); };
+    const auto upper = [&] { part_large_leaves(triangles, tree, node.children[1], depth + 1); };
+    if (node.count > kParallel) {
+      parallel_invoke(lower, upper);
+    } else {
+      lower();
+      upper();
+    }
+    return;
+  }
+  if (node.count > kSmallSet) return;
+  Reference references[kSmallSet];
+  for (size_t i = 0; i < node.count; ++i)
+    references[i] =
+        make_reference(clipped_box(corners_of(triangles, node.rows[i]), node.box), node.rows[i]);
+  Small small{tree.prices, tree.arena, {references, node.count}, node.rows, true, {}};
+  small.sort();
+  small.build(0, node.count, depth, node);
+}
+
+}  // namespace
+
+void part_large_leaves(const Rows<TriangleRow>& triangles, BinaryTree& tree) {
+  part_large_leaves(triangles, tree, tree.root, 0);
 }
 
 }  // namespace yat::tree

@@ -6,6 +6,7 @@
 //                  objects: binned; exact for small sets                tree_objects.cpp
 //                  planes: binned, swept exactly, references clipped    tree_planes.cpp
 //             ─> its largest nodes put where they fit best              tree_reinsert.cpp
+//             ─> its largest leaves offered in parts                    tree_objects.cpp
 //             ─> which binary nodes become wide                         tree_plan.cpp
 //             ─> 8-wide nodes and blocks                                tree_collapse.cpp
 //
@@ -236,6 +237,12 @@ void split_objects(const Set& set, const ObjectSplit& split, Set& left, Set& rig
 /// Everything below a set of up to kSmallSet references, by exact object splits.
 void build_small(const Set& set, uint32_t depth, const Prices& prices, NodeArena& arena,
                  BinaryNode& node);
+
+/// Splits the leaves that long lists of rays see down to single references, whatever the price: the
+/// plan of the wide tree joins what does not pay. One by one, splits would not: taking one wall of
+/// a room from the others leaves a box as large as before; taking all six leaves none. Inside
+/// ThreadPool::run.
+void part_large_leaves(const Rows<TriangleRow>& triangles, BinaryTree& tree);
 
 /// Makes `node` a leaf of these references.
 void make_leaf(const Set& set, BinaryNode& node);
