@@ -38,9 +38,14 @@ struct Traversal {
   uint32_t octant;               ///< of all rays, or (kOne) the one whose order serves them
   LaneCount count;
   Leaves* leaves = nullptr;
+  uint32_t stopped = 0;   ///< rays of an any-hit pass that have met something
   ShortTasks tasks = {};  ///< of any-hit passes whose leaves are blocks
 
   static constexpr bool kPutsOff = Q != Query::kClosest && std::is_void_v<Leaves>;
+
+  YAT_INLINE void note_stopped(uint32_t rays) {
+    if constexpr (kPutsOff) stopped += rays;
+  }
 
   YAT_INLINE uint32_t kz_of(uint32_t slot) const {
     return uint32_t(slot >= second_kz) + uint32_t(slot >= third_kz);
@@ -98,7 +103,7 @@ struct Traversal {
           for (uint32_t r = begin; r < i; ++r) {
             float* const record = records + size_t(slots[r]) * kRecordWords;
             if (is_done(record[kRecordT], enter, r)) continue;
-            test_block<A, Q>(triangles, record, count);
+            note_stopped(test_block<A, Q>(triangles, record, count));
           }
         }
     }
@@ -125,8 +130,8 @@ struct Traversal {
           active = active & mask_of<A>(slot >= UInt<A>(begin)) & mask_of<A>(slot < UInt<A>(end));
           if (!any<A>(active)) continue;
         }
-        test_rays<A, Q>(block, blocks, width, BlockAxes(kz, width), occluders, ray, active, records,
-                        slots + i, count);
+        note_stopped(test_rays<A, Q>(block, blocks, width, BlockAxes(kz, width), occluders, ray,
+                                     active, records, slots + i, count));
       }
     }
   }
@@ -203,6 +208,7 @@ struct Traversal {
   void visit(uint32_t row, const uint32_t* slots, uint32_t n, std::byte* arena) noexcept {
     const TreeNode& node = tree.nodes[row];
     const uint32_t children = child_count<A>(node);
+    const uint32_t stopped_before = stopped;
     const size_t words = list_words(n);
     uint32_t* lists[8];
     float* enters[8];
@@ -242,7 +248,8 @@ struct Traversal {
         }
       }
       // A ray that is done misses every box below, and short lists at leaves find out themselves.
-      if (leaf && left >= kLongList) left = drop_done(lists[c], enters[c], left);
+      if (leaf && left >= kLongList && (!kPutsOff || stopped != stopped_before))
+        left = drop_done(lists[c], enters[c], left);
       if (!left) continue;
       if (leaf && left < kLongList) {
         visit_leaf_by_ray(child, lists[c], enters[c], left);
@@ -311,8 +318,9 @@ YAT_INLINE LaneCount trace_passes(const TreeView& tree, const RayStream& stream,
       (lane_index<A>() + UInt<A>(first[0] + i)).store_unaligned(slots + i);
     UInt<A>(first[0]).store_unaligned(slots + m);
     const uint32_t octant = P == Passes::kByOctant ? pass : common;
-    Traversal<A, Q, P, Leaves> traversal{tree, stream.records, first[1],          first[2], octant,
-                                         {},   leaves,         {ring, places - 1}};
+    Traversal<A, Q, P, Leaves> traversal{tree, stream.records, first[1], first[2], octant,
+                                         {},   leaves};
+    traversal.tasks = {ring, places - 1};
     traversal.visit(0, slots, m, free);
     if constexpr (traversal.kPutsOff) run_tasks<A, Q>(traversal, 0);
     count.rows += traversal.count.rows;

@@ -164,9 +164,9 @@ struct BlockTriangles {
   }
 };
 
-/// One ray against W triangles: leaves its answer in the record.
+/// One ray against W triangles: leaves its answer in the record. Returns 1 if it hits one, else 0.
 template <class A, Query Q>
-YAT_INLINE void test_block(const BlockTriangles<A>& block, float* record, LaneCount& count) {
+YAT_INLINE uint32_t test_block(const BlockTriangles<A>& block, float* record, LaneCount& count) {
   constexpr uint32_t W = kLanes<A>;
   const Float<A> org[3] = {Float<A>(record[9]), Float<A>(record[10]), Float<A>(record[11])};
   const Float<A> shear[3] = {Float<A>(record[12]), Float<A>(record[13]), Float<A>(record[14])};
@@ -193,10 +193,10 @@ YAT_INLINE void test_block(const BlockTriangles<A>& block, float* record, LaneCo
         return plane;
       },
       h);
-  if (!found) return;
+  if (!found) return 0;
   uint32_t bits = mask_bits<A>(h.hit);
   if constexpr (Q == Query::kAnyMasked) bits &= block.occluders;
-  if (!bits) return;
+  if (!bits) return 0;
   if constexpr (Q != Query::kClosest) {
     record[kRecordT] = -1.f;
   } else {
@@ -221,14 +221,16 @@ YAT_INLINE void test_block(const BlockTriangles<A>& block, float* record, LaneCo
       __builtin_memcpy(record + kRecordPrim, &prim, 4);
     }
   }
+  return 1;
 }
 
-/// W rays of one kz (lanes in `active`) against every triangle of `blocks` blocks.
+/// W rays of one kz (lanes in `active`) against every triangle of `blocks` blocks: leaves their
+/// answers in the records. Returns how many hit one.
 template <class A, Query Q>
-YAT_INLINE void test_rays(const float* block, uint32_t blocks, uint32_t width,
-                          const BlockAxes& axes, const uint32_t* occluders,
-                          const Float<A> (&ray)[8], Mask<A> active, float* records,
-                          const uint32_t* slots, LaneCount& count) {
+YAT_INLINE uint32_t test_rays(const float* block, uint32_t blocks, uint32_t width,
+                              const BlockAxes& axes, const uint32_t* occluders,
+                              const Float<A> (&ray)[8], Mask<A> active, float* records,
+                              const uint32_t* slots, LaneCount& count) {
   constexpr uint32_t W = kLanes<A>;
   const Float<A> org[3] = {ray[1], ray[2], ray[3]};
   const Float<A> shear[3] = {ray[4], ray[5], ray[6]};
@@ -279,7 +281,7 @@ YAT_INLINE void test_rays(const float* block, uint32_t blocks, uint32_t width,
   }
   count.rows += Q == Query::kClosest ? uint64_t(tests) * lanes : useful;
   count.steps += tests;
-  if (!improved) return;
+  if (!improved) return 0;
   if constexpr (Q != Query::kClosest) {
     for (uint32_t bits = improved; bits; bits &= bits - 1)
       records[size_t(slots[__builtin_ctz(bits)]) * kRecordWords + kRecordT] = -1.f;
@@ -299,6 +301,7 @@ YAT_INLINE void test_rays(const float* block, uint32_t blocks, uint32_t width,
       __builtin_memcpy(record + kRecordPrim, prims + lane, 4);
     }
   }
+  return uint32_t(__builtin_popcount(improved));
 }
 
 }  // namespace yat::YAT_ISA
