@@ -73,6 +73,22 @@ Shape "trianglemesh" "integer indices" [0 2 1 0 3 2  4 5 6 4 6 7]
         kMaterials[i], shines ? "AreaLightSource \"area\" \"color L\" [1 1 1]\n" : "",
         -0.8 + 0.4 * i, i % 2 ? 0.3 : -0.3);
   }
+  // One smaller sphere of every other material.
+  constexpr const char* kMore[] = {
+      "\"metal\" \"string name\" [\"gold\"]",
+      "\"metal2\" \"float fresnel\" [2]",
+      "\"metal2\" \"color fresnel\" [.9 .6 .3]",
+      "\"shinymetal\" \"color Ks\" [.5 .5 .5]",
+      "\"roughglass\" \"float uroughness\" [.2] \"float vroughness\" [.2]",
+      "\"mirror\" \"float film\" [300]",
+      "\"glass\" \"float film\" [300]",
+      "\"glass\" \"bool architectural\" [\"true\"]",
+  };
+  for (size_t i = 0; i < std::size(kMore); ++i)
+    text += fmt::format(
+        "AttributeBegin\nMaterial {}\nTranslate {} 0.1 -0.15\n"
+        "Shape \"sphere\" \"float radius\" [0.1]\nAttributeEnd\n",
+        kMore[i], -0.84 + 0.24 * double(i));
   // Small triangles, so that the tree has depth: a grid of tents on the floor.
   std::string points, indices;
   constexpr int kTents = 40;

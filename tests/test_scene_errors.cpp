@@ -573,13 +573,6 @@ WorldEnd
        false},
       {R"(WorldBegin
 MakeNamedVolume "v" "clear"
-Interior "v"
-WorldEnd
-)",
-       {R"(t.lxs:3:1: warning: volumes are not rendered yet, Interior "v" is ignored)"},
-       false},
-      {R"(WorldBegin
-MakeNamedVolume "v" "clear"
 MakeNamedVolume "v" "clear"
 WorldEnd
 )",

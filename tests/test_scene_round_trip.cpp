@@ -58,6 +58,13 @@ void expect_equal(const Description& a, const Description& b, bool names) {
     EXPECT_EQ(a.textures[i].to_world, b.textures[i].to_world);
     expect_equal(a.textures[i].plugin, b.textures[i].plugin);
   }
+  ASSERT_EQ(a.volumes.size(), b.volumes.size());
+  for (size_t i = 0; i < a.volumes.size(); ++i) {
+    if (names) {
+      EXPECT_EQ(a.volumes[i].name, b.volumes[i].name);
+    }
+    expect_equal(a.volumes[i].plugin, b.volumes[i].plugin);
+  }
   ASSERT_EQ(a.area_lights.size(), b.area_lights.size());
   for (size_t i = 0; i < a.area_lights.size(); ++i)
     expect_equal(a.area_lights[i].plugin, b.area_lights[i].plugin);
@@ -70,6 +77,8 @@ void expect_equal(const Description& a, const Description& b, bool names) {
     EXPECT_EQ(s.material, t.material) << i;
     EXPECT_EQ(s.area_light, t.area_light) << i;
     EXPECT_EQ(s.object, t.object) << i;
+    EXPECT_EQ(s.interior, t.interior) << i;
+    EXPECT_EQ(s.exterior, t.exterior) << i;
   }
   ASSERT_EQ(a.lights.size(), b.lights.size());
   for (size_t i = 0; i < a.lights.size(); ++i) {

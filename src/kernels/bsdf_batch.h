@@ -18,6 +18,7 @@ YAT_INLINE BatchView<A> load_view(const KernelTable::BsdfBatch& batch, uint32_t 
   const Float<A> z = load<A>(batch.wo_z, i);
   b.inside = !(z > Float<A>(0.f));
   b.view.outside = !b.inside;
+  b.view.distance = Float<A>(1.f);
   b.view.wo = {load<A>(batch.wo_x, i), load<A>(batch.wo_y, i), b.turn(z)};
   return b;
 }

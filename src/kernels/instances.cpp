@@ -3,6 +3,7 @@
 #include "kernels/classify.h"
 #include "kernels/groups.h"
 #include "kernels/surface_instance.h"
+#include "kernels/tangents.h"
 #include "kernels/traverse_instances.h"
 
 namespace yat::YAT_ISA {
@@ -16,6 +17,8 @@ void fill_instances(KernelTable& table) {
   table.classify_instance_hits = &classify_instance_hits<A>;
   table.make_instance_surfaces[0] = &make_instance_surfaces<A, false>;
   table.make_instance_surfaces[1] = &make_instance_surfaces<A, true>;
+  table.make_instance_tangents[0] = &make_instance_tangents<A, false>;
+  table.make_instance_tangents[1] = &make_instance_tangents<A, true>;
 }
 
 }  // namespace yat::YAT_ISA

@@ -58,6 +58,9 @@ template <class A>
 struct BsdfView {
   Vec3<A> wo;       ///< local, wo.z >= 0
   Mask<A> outside;  ///< wo is on the shape's outside
+  /// From where the light on its way to wo arrives at a surface, scattered or not, or the camera:
+  /// the way through what is on wo's side [m].
+  Float<A> distance;
 };
 
 template <class A>

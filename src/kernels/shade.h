@@ -42,6 +42,15 @@ struct ShadingFrame {
     f.view.wo.z = xsimd::max(f.view.wo.z, zero);
     return f;
   }
+
+  /// Turns the frame so that x is along the tangent, as far as that lies across z.
+  YAT_INLINE void align(const Vec3<A>& tangent, const Vec3<A>& wo) {
+    const Vec3<A> x = normalize(tangent - dot(tangent, frame.z) * frame.z);
+    const Mask<A> usable = is_finite<A>(sum_of_magnitudes(x));
+    frame.x = select(usable, x, frame.x);
+    frame.y = cross(frame.z, frame.x);
+    view.wo = {dot(frame.x, wo), dot(frame.y, wo), view.wo.z};
+  }
 };
 
 /// Where to start from a surface on the side of ng (unit, either side), `offset` off it.
@@ -171,7 +180,11 @@ void shade_scattering(const ShadeInput& in, const TransportOptions& options, Sha
     const Float<A> offset = load<A>(in.surfaces.offset, i);
     const auto parameters = load_parameters<A, Record>(
         in.parameters, only<A>(present, load<A>(in.surfaces.parameter, i)));
-    const ShadingFrame<A> shading = ShadingFrame<A>::of(ng, ns, wo);
+    ShadingFrame<A> shading = ShadingFrame<A>::of(ng, ns, wo);
+    shading.view.distance = load<A>(in.surfaces.distance, i);
+    if (in.tangents.x)
+      shading.align(
+          {load<A>(in.tangents.x, i), load<A>(in.tangents.y, i), load<A>(in.tangents.z, i)}, wo);
 
     if constexpr (!kDelta)
       if (sample_lights)

@@ -3,6 +3,7 @@
 #include "kernels/classify.h"
 #include "kernels/emission.h"
 #include "kernels/groups.h"
+#include "kernels/tangents.h"
 
 namespace yat::YAT_ISA {
 
@@ -15,6 +16,12 @@ void fill_surface(KernelTable& table) {
       &make_surfaces<A, GeometryKind::kTriangleVertex>;
   table.make_surfaces[uint32_t(GeometryKind::kSphere)] = &make_surfaces<A, GeometryKind::kSphere>;
   table.make_surfaces[uint32_t(GeometryKind::kPlane)] = &make_surfaces<A, GeometryKind::kPlane>;
+  table.make_tangents[uint32_t(GeometryKind::kTriangleFlat)] =
+      &make_tangents<A, GeometryKind::kTriangleFlat>;
+  table.make_tangents[uint32_t(GeometryKind::kTriangleVertex)] =
+      &make_tangents<A, GeometryKind::kTriangleVertex>;
+  table.make_tangents[uint32_t(GeometryKind::kSphere)] = &make_tangents<A, GeometryKind::kSphere>;
+  table.make_tangents[uint32_t(GeometryKind::kPlane)] = &make_tangents<A, GeometryKind::kPlane>;
   table.add_emission = &add_emission<A>;
 }
 

@@ -88,6 +88,7 @@ struct ShadeInput {
   Randoms<ConstColumn> randoms;
   LightSample<ConstColumn> lights;  ///< null columns: no light is sampled in this bin
   ParameterView parameters;
+  Tangent<ConstColumn> tangents = {};  ///< null columns: materials see any frame about the normal
 };
 
 enum class GeometryKind : uint32_t { kTriangleFlat, kTriangleVertex, kSphere, kPlane, kCount };
@@ -159,6 +160,11 @@ struct KernelTable {
                                     const Surface<Column>&, const PathState<Column>&,
                                     uint32_t n) noexcept;
 
+  /// make_tangents for bins of instanced triangles; [1] with vertex data.
+  void (*make_instance_tangents[2])(const SceneView&, const uint32_t* order,
+                                    const uint32_t* instance, const Surface<ConstColumn>&,
+                                    const Tangent<Column>&, uint32_t n) noexcept;
+
   // -- sort -------------------------------------------------------------------------------------
   /// bin[i] of each hit: prim_bin[prim]; 0 for a miss, and for a path at max_depth whose bin is
   /// below `first_lasting` (Scene::first_lasting_bin).
@@ -172,6 +178,11 @@ struct KernelTable {
       const SceneView&, const uint32_t* order, const Ray<ConstColumn>&, const Hit<ConstColumn>&,
       const PathState<ConstColumn>&, const Surface<Column>&, const PathState<Column>&,
       uint32_t n) noexcept;
+  /// Tangents of dense surfaces, for bins that need them.
+  void (*make_tangents[uint32_t(GeometryKind::kCount)])(const SceneView&,
+                                                        const Surface<ConstColumn>&,
+                                                        const Tangent<Column>&,
+                                                        uint32_t n) noexcept;
   /// Adds emission seen at surfaces with a light row, MIS-weighted against light sampling.
   void (*add_emission)(const SceneView&, const Surface<ConstColumn>&, const PathState<ConstColumn>&,
                        const SampleSum<Column>&, DropLog&, uint32_t n) noexcept;

@@ -24,6 +24,7 @@ struct Bin {
   GeometryKind geometry = GeometryKind::kTriangleFlat;
   MaterialKind material = MaterialKind::kMatte;
   bool emissive = false;
+  bool tangents = false;    ///< the material needs dp/du
   bool instanced = false;   ///< triangles of shared objects; else rows of the scene's own tables
   uint64_t primitives = 0;  ///< in this bin; those of an object count once per instance
 };

@@ -42,12 +42,14 @@ void add_to_bounds(const PlacedShape& placed, Bounds& bounds) {
   }
 }
 
-BinKey BinKey::of(GeometryKind geometry, MaterialKind material, bool emissive, Placing placing) {
-  return {.lasting = emissive || material_traits(material).see_through,
+BinKey BinKey::of(GeometryKind geometry, const MaterialRef& material, bool emissive,
+                  Placing placing) {
+  return {.lasting = emissive || material_traits(material.kind).see_through,
           .placing = placing,
           .geometry = geometry,
-          .material = material,
-          .emissive = emissive};
+          .material = material.kind,
+          .emissive = emissive,
+          .tangents = material.tangents};
 }
 
 void BinKeys::number(Scene& scene, Diagnostics& diagnostics) {
@@ -59,8 +61,11 @@ void BinKeys::number(Scene& scene, Diagnostics& diagnostics) {
   scene.first_lasting_bin = 1;
   for (auto& [key, bin] : bin_of_key_) {
     bin = uint32_t(scene.bins.size());
-    scene.bins.push_back(
-        {key.geometry, key.material, key.emissive, key.placing == Placing::kByInstance, 0});
+    scene.bins.push_back({.geometry = key.geometry,
+                          .material = key.material,
+                          .emissive = key.emissive,
+                          .tangents = key.tangents,
+                          .instanced = key.placing == Placing::kByInstance});
     if (!key.lasting) scene.first_lasting_bin = bin + 1;
   }
 }
@@ -93,7 +98,7 @@ void GeometryRows::add_mesh(const PlacedShape& placed, const Mesh& mesh) {
   }
   triangle_runs_.push_back(
       {first, BinKey::of(added.flat ? GeometryKind::kTriangleFlat : GeometryKind::kTriangleVertex,
-                         placed.material.kind, placed.emissive(), Placing::kOnce)});
+                         placed.material, placed.emissive(), Placing::kOnce)});
 }
 
 void GeometryRows::add_sphere(const PlacedShape& placed) {
@@ -132,7 +137,7 @@ void GeometryRows::add_sphere(const PlacedShape& placed) {
   }
   spheres_.push_back(row);
   sphere_keys_.push_back(
-      BinKey::of(GeometryKind::kSphere, placed.material.kind, placed.emissive(), Placing::kOnce));
+      BinKey::of(GeometryKind::kSphere, placed.material, placed.emissive(), Placing::kOnce));
 }
 
 void GeometryRows::add_plane(const PlacedShape& placed) {
@@ -145,7 +150,7 @@ void GeometryRows::add_plane(const PlacedShape& placed) {
   row.occludes = placed.material.kind != MaterialKind::kNull;
   planes_.push_back(row);
   plane_keys_.push_back(
-      BinKey::of(GeometryKind::kPlane, placed.material.kind, placed.emissive(), Placing::kOnce));
+      BinKey::of(GeometryKind::kPlane, placed.material, placed.emissive(), Placing::kOnce));
 }
 
 void GeometryRows::add_keys(BinKeys& keys) const {

@@ -133,13 +133,17 @@ MaterialRef MaterialCompiler::build(const Plugin& plugin) {
   return made;
 }
 
-MaterialRef MaterialCompiler::compile(uint32_t entry) {
+MaterialRef MaterialCompiler::compile(uint32_t entry, const VolumesAround& volumes) {
   const bool is_default = entry >= description_.materials.size();
-  auto& done = done_[is_default ? description_.materials.size() : entry];
-  if (!done)
-    done = is_default ? add_matte(*this, glm::dvec3(.9), 0)
-                      : build(description_.materials[entry].plugin);
-  return *done;
+  // Only glass looks at volumes: the others stay one row.
+  const bool fills = !is_default && description_.materials[entry].plugin.type.starts_with("glass");
+  volumes_ = fills ? volumes : VolumesAround{};
+  const auto [done, is_new] =
+      done_.try_emplace({is_default ? kNone : entry, volumes_}, MaterialRef{});
+  if (is_new)
+    done->second = is_default ? add_matte(*this, glm::dvec3(.9), 0)
+                              : build(description_.materials[entry].plugin);
+  return done->second;
 }
 
 void MaterialCompiler::finish(Scene& scene) {

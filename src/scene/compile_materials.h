@@ -3,28 +3,34 @@
 // family of types is one file with a function for each of them.
 
 #include <array>
+#include <compare>
 #include <cstring>
 #include <glm/vec3.hpp>
-#include <optional>
+#include <map>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scene/compile_parts.h"
 
 namespace yat {
 
+/// Rows of Description::volumes on both sides of a shape, or kNone.
+struct VolumesAround {
+  uint32_t interior = kNone, exterior = kNone;
+  auto operator<=>(const VolumesAround&) const = default;
+};
+
 /// Turns material entries into parameter rows, each once.
 class MaterialCompiler {
  public:
   MaterialCompiler(const Description& description, const ColourModel& colour,
                    Diagnostics& diagnostics)
-      : description_(description),
-        colour_(colour),
-        diagnostics_(diagnostics),
-        done_(description.materials.size() + 1) {}
+      : description_(description), colour_(colour), diagnostics_(diagnostics) {}
 
-  /// entry: row of Description::materials, or kNone for the default matte.
-  MaterialRef compile(uint32_t entry);
+  /// entry: row of Description::materials, or kNone for the default matte. One material in several
+  /// volumes is several rows if it looks at them.
+  MaterialRef compile(uint32_t entry, const VolumesAround& volumes = {});
   /// Moves the tables into the scene.
   void finish(Scene& scene);
 
@@ -42,6 +48,13 @@ class MaterialCompiler {
         record);
     return {kind, row};
   }
+  /// The same for a material with a lobe of two roughnesses.
+  template <template <template <class> class> class Record>
+  MaterialRef add_rough(MaterialKind kind, const Record<Value>& record) {
+    MaterialRef ref = add(kind, record);
+    ref.tangents = record.uroughness != record.vroughness;
+    return ref;
+  }
   /// A colour parameter in linear Rec.709, clamped to 0..1 with one warning.
   glm::dvec3 reflectance(Parameters& parameters, std::string_view name, double fallback);
   /// The same in the scene's bands.
@@ -55,6 +68,9 @@ class MaterialCompiler {
   /// grey `fallback`), with a warning.
   MaterialRef stand_in(Parameters& parameters, std::string_view color, double fallback);
 
+  /// Of the shape that the material is built for.
+  const VolumesAround& volumes() const { return volumes_; }
+
   const Description& description() const { return description_; }
   const ColourModel& colour() const { return colour_; }
   Diagnostics& diagnostics() { return diagnostics_; }
@@ -65,13 +81,19 @@ class MaterialCompiler {
   const Description& description_;
   const ColourModel& colour_;
   Diagnostics& diagnostics_;
-  std::vector<std::optional<MaterialRef>> done_;
+  VolumesAround volumes_;
+  std::map<std::pair<uint32_t, VolumesAround>, MaterialRef> done_;
   std::array<std::vector<uint32_t>, kMaterialKinds> words_;
   std::array<uint32_t, kMaterialKinds> rows_{};
 };
 
 /// Lambert (sigma 0) or Oren-Nayar. kd: linear Rec.709, 0..1; sigma in degrees, 0..90.
 MaterialRef add_matte(MaterialCompiler& compiler, const glm::dvec3& kd, double sigma_degrees);
+
+/// YART's metal2 (lxs 12.6). kr: reflectance head-on, linear Rec.709, 0..1; roughness: slope of the
+/// facets, 0..1; compensated: what they lose to each other is added back.
+MaterialRef add_cook_torrance(MaterialCompiler& compiler, const glm::dvec3& kr, double roughness,
+                              bool compensated);
 
 /// Thin film on a mirror or glass.
 struct Film {

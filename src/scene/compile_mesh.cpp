@@ -74,7 +74,8 @@ MeshRows add_mesh_rows(const PlacedShape& placed, const Mesh& mesh, const glm::d
   const std::vector<glm::dvec3> normals = world_normals(mesh, placed);
   const bool mirrored = placed.reverse_orientation != placed.placement.mirrored;
   uint64_t no_area = 0, not_finite = 0, bad_normals = 0;
-  bool flat = true;
+  // Texture coordinates say where dp/du points.
+  bool flat = !(placed.material.tangents && !mesh.uvs.empty());
   // By halves more at least: many small meshes must not copy the table each time.
   const size_t wanted = triangles.size() + mesh.triangles();
   if (wanted > triangles.capacity()) triangles.reserve(std::max(wanted, triangles.size() * 3 / 2));
@@ -126,12 +127,12 @@ MeshRows add_mesh_rows(const PlacedShape& placed, const Mesh& mesh, const glm::d
     row.parameter = 0;
     row.light = kNone;
     triangles.push_back(row);
-    if (normals.empty()) continue;
+    if (normals.empty() && flat) continue;
 
     TriangleVertexRow<Value> vertex{};
     float* const to[3] = {&vertex.n0_x, &vertex.n1_x, &vertex.n2_x};
     for (int k = 0; k < 3; ++k) {
-      const glm::dvec3 n = on_side_of(outside, normals[index[k]]);
+      const glm::dvec3 n = normals.empty() ? outside : on_side_of(outside, normals[index[k]]);
       const glm::dvec3 off = glm::abs(n - outside);
       flat = flat && std::max({off.x, off.y, off.z}) <= kFlat;
       for (int axis = 0; axis < 3; ++axis) to[k][axis] = float(n[axis]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernels/materials/cook_torrance.h"
 #include "kernels/materials/metal.h"
 #include "kernels/materials/metal_colour.h"
 #include "kernels/materials/metal_index.h"
@@ -25,8 +26,9 @@ Roughness roughness(MaterialCompiler& compiler, Parameters& p) {
 template <template <template <class> class> class Record>
 MaterialRef add_index(MaterialCompiler& compiler, MaterialKind kind, const IndexBands& i,
                       const Roughness& rough) {
-  return compiler.add<Record>(kind, {float(i.n[0]), float(i.n[1]), float(i.n[2]), float(i.k[0]),
-                                     float(i.k[1]), float(i.k[2]), rough.u, rough.v});
+  return compiler.add_rough<Record>(
+      kind, {float(i.n[0]), float(i.n[1]), float(i.n[2]), float(i.k[0]), float(i.k[1]),
+             float(i.k[2]), rough.u, rough.v});
 }
 
 }  // namespace
@@ -34,6 +36,16 @@ MaterialRef add_index(MaterialCompiler& compiler, MaterialKind kind, const Index
 Film read_film(MaterialCompiler& compiler, Parameters& p) {
   const double thickness = compiler.clamped(p, "film", 0, 0, 1e6);
   return {float(thickness), float(compiler.clamped(p, "filmindex", 1.5, 1, 10))};
+}
+
+MaterialRef add_cook_torrance(MaterialCompiler& compiler, const glm::dvec3& kr, double roughness,
+                              bool compensated) {
+  const glm::vec3 c = compiler.bands(kr);
+  if (compensated)
+    return compiler.add<CookTorranceParameters>(MaterialKind::kCookTorrance,
+                                                {c.x, c.y, c.z, float(roughness)});
+  return compiler.add<CookTorranceSingleParameters>(MaterialKind::kCookTorranceSingle,
+                                                    {c.x, c.y, c.z, float(roughness)});
 }
 
 MaterialRef build_mirror(MaterialCompiler& compiler, Parameters& p) {
@@ -55,8 +67,8 @@ MaterialRef build_metal2(MaterialCompiler& compiler, Parameters& p) {
   const Roughness rough = roughness(compiler, p);
   if (const auto* colour = std::get_if<FresnelColour>(&fresnel)) {
     const glm::vec3 kr = compiler.bands(colour->kr);
-    return compiler.add<MetalColourParameters>(MaterialKind::kMetalColour,
-                                               {kr.x, kr.y, kr.z, rough.u, rough.v});
+    return compiler.add_rough<MetalColourParameters>(MaterialKind::kMetalColour,
+                                                     {kr.x, kr.y, kr.z, rough.u, rough.v});
   }
   // LuxRender takes the simpler formula where k is not below n everywhere.
   const IndexBands& index = std::get<IndexBands>(fresnel);
@@ -72,7 +84,7 @@ MaterialRef build_shinymetal(MaterialCompiler& compiler, Parameters& p) {
   const glm::vec3 ks = compiler.reflectance_bands(p, "Ks", 1);
   const Roughness rough = roughness(compiler, p);
   const Film film = read_film(compiler, p);
-  return compiler.add<ShinyMetalParameters>(
+  return compiler.add_rough<ShinyMetalParameters>(
       MaterialKind::kShinyMetal,
       {kr.x, kr.y, kr.z, ks.x, ks.y, ks.z, rough.u, rough.v, film.thickness, film.index});
 }

@@ -222,7 +222,7 @@ void ObjectCompiler::add_to_bounds(Bounds& bounds) const {
 }
 
 BinKey ObjectCompiler::key(const Run& run, const MaterialRef& material) const {
-  return BinKey::of(run.geometry, material.kind, run.emissive, Placing::kByInstance);
+  return BinKey::of(run.geometry, material, run.emissive, Placing::kByInstance);
 }
 
 void ObjectCompiler::add_keys(BinKeys& keys) const {

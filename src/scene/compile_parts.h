@@ -74,6 +74,7 @@ double float_parameter(Parameters& parameters, std::string_view name, double fal
 struct MaterialRef {
   MaterialKind kind = MaterialKind::kMatte;
   uint32_t row = 0;
+  bool tangents = false;  ///< looks different from other sides: needs dp/du
 };
 
 // ---- Shapes (lxs 5) --------------------------------------------------------------------------
@@ -168,7 +169,9 @@ struct BinKey {
   GeometryKind geometry = GeometryKind::kTriangleFlat;
   MaterialKind material = MaterialKind::kMatte;
   bool emissive = false;
-  static BinKey of(GeometryKind geometry, MaterialKind material, bool emissive, Placing placing);
+  bool tangents = false;
+  static BinKey of(GeometryKind geometry, const MaterialRef& material, bool emissive,
+                   Placing placing);
   auto operator<=>(const BinKey&) const = default;
 };
 

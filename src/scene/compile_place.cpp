@@ -110,7 +110,8 @@ std::optional<uint32_t> ShapePlacer::share(uint32_t object, uint64_t instances,
     if (!placement) return {};
     placed.placement = *placement;
     placed.reverse_orientation = entry.reverse_orientation;
-    placed.material = materials_.compile(first.material != kNone ? first.material : entry.material);
+    placed.material = materials_.compile(first.material != kNone ? first.material : entry.material,
+                                         {entry.interior, entry.exterior});
     placed.radiance = shapes_[i].radiance;
     shared.meshes.push_back(std::move(placed));
   }
@@ -133,7 +134,8 @@ bool ShapePlacer::place_shared(uint32_t shared, const InstanceEntry& instance) {
     for (const uint32_t i : members_[object.row]) {
       if (!is_mesh(i)) continue;
       materials.push_back(materials_.compile(
-          instance.material != kNone ? instance.material : description_.shapes[i].material));
+          instance.material != kNone ? instance.material : description_.shapes[i].material,
+          {description_.shapes[i].interior, description_.shapes[i].exterior}));
       same = same && presence(shapes_[i], materials.back()) ==
                          presence(shapes_[i], object.meshes[mesh++].material);
     }
@@ -163,7 +165,7 @@ void ShapePlacer::place(uint32_t index, const Matrix& to_world, uint32_t materia
   placed.loc = loc;
   placed.placement = *placement;
   placed.reverse_orientation = entry.reverse_orientation;
-  placed.material = materials_.compile(material);
+  placed.material = materials_.compile(material, {entry.interior, entry.exterior});
   placed.radiance = info.radiance;
   if (presence(info, placed.material) == Presence::kAbsent) return;
   note_mirrored_light(placed, placed.placement.mirrored, loc);

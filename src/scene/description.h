@@ -61,6 +61,12 @@ struct TextureEntry {
   Matrix to_world{1.0};
 };
 
+/// MakeNamedVolume.
+struct VolumeEntry {
+  std::string name;
+  Plugin plugin;
+};
+
 struct AreaLightEntry {
   Plugin plugin;
 };
@@ -72,6 +78,8 @@ struct ShapeEntry {
   uint32_t material = 0xffffffffu;    ///< row of materials, or kNone: matte with Kd .9
   uint32_t area_light = 0xffffffffu;  ///< row of area_lights, or kNone
   uint32_t object = 0xffffffffu;      ///< row of objects it belongs to, or kNone: placed directly
+  uint32_t interior = 0xffffffffu;    ///< row of volumes inside, or kNone
+  uint32_t exterior = 0xffffffffu;    ///< row of volumes outside, or kNone
 };
 
 struct LightEntry {
@@ -102,6 +110,7 @@ struct Description {
 
   std::vector<MaterialEntry> materials;
   std::vector<TextureEntry> textures;
+  std::vector<VolumeEntry> volumes;
   std::vector<AreaLightEntry> area_lights;
   std::vector<ShapeEntry> shapes;
   std::vector<LightEntry> lights;

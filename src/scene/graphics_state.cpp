@@ -20,7 +20,8 @@ std::string_view block_end_name(BlockKind kind) {
 }
 
 void GraphicsState::begin_block(BlockKind kind, SourceLoc loc) {
-  Block block{kind, loc, ctm, material, area_light, object, reverse_orientation, {}, 0, 0};
+  Block block{kind, loc, ctm, material, area_light, object, interior, exterior, reverse_orientation,
+              {},   0,   0};
   for (size_t k = 0; k < kTextureKinds; ++k) block.texture_marks[k] = textures[k].mark();
   block.material_mark = materials.mark();
   block.volume_mark = volumes.mark();
@@ -33,6 +34,8 @@ void GraphicsState::restore(const Block& block) {
   material = block.material;
   area_light = block.area_light;
   object = block.object;
+  interior = block.interior;
+  exterior = block.exterior;
   reverse_orientation = block.reverse_orientation;
   for (size_t k = 0; k < kTextureKinds; ++k) textures[k].undo_to(block.texture_marks[k]);
   materials.undo_to(block.material_mark);

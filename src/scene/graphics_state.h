@@ -31,6 +31,7 @@ class GraphicsState {
   Matrix ctm{1.0};
   uint32_t material = kNoRow;
   uint32_t area_light = kNoRow;
+  uint32_t interior = kNoRow, exterior = kNoRow;  ///< volumes
   bool reverse_orientation = false;
   ScopedNames textures[kTextureKinds];
   ScopedNames materials;
@@ -53,7 +54,7 @@ class GraphicsState {
     BlockKind kind;
     SourceLoc loc;
     Matrix ctm;
-    uint32_t material, area_light, object;
+    uint32_t material, area_light, object, interior, exterior;
     bool reverse_orientation;
     size_t texture_marks[kTextureKinds];
     size_t material_mark, volume_mark;

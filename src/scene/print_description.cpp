@@ -57,10 +57,12 @@ class Printer {
   explicit Printer(const Description& description) : d_(description) {
     for (const TextureEntry& t : d_.textures) texture_names_.add(t.name);
     for (const MaterialEntry& m : d_.materials) material_names_.add(m.name);
+    for (const VolumeEntry& v : d_.volumes) volume_names_.add(v.name);
     for (const ObjectEntry& o : d_.objects) object_names_.add(o.name);
     for (const TextureEntry& t : d_.textures) textures_.push_back(texture_names_.make(t.name, "_"));
     for (const MaterialEntry& m : d_.materials)
       materials_.push_back(material_names_.make(m.name, "inline"));
+    for (const VolumeEntry& v : d_.volumes) volumes_.push_back(volume_names_.make(v.name, "_"));
     for (const ObjectEntry& o : d_.objects) objects_.push_back(object_names_.make(o.name, "_"));
   }
 
@@ -71,6 +73,11 @@ class Printer {
     for (size_t i = 0; i < d_.materials.size(); ++i) {
       const Plugin& plugin = d_.materials[i].plugin;
       line("MakeNamedMaterial {} \"string type\" [{}]", quoted(materials_[i]), quoted(plugin.type));
+      parameters(plugin.parameters);
+    }
+    for (size_t i = 0; i < d_.volumes.size(); ++i) {
+      const Plugin& plugin = d_.volumes[i].plugin;
+      line("MakeNamedVolume {} {}", quoted(volumes_[i]), quoted(plugin.type));
       parameters(plugin.parameters);
     }
     for (const LightEntry& light : d_.lights) {
@@ -239,6 +246,8 @@ class Printer {
       begin_placed(shape.to_world);
       if (shape.reverse_orientation) line("ReverseOrientation");
       select_material(shape.material);
+      if (shape.interior != kNoRow) line("Interior {}", quoted(volumes_[shape.interior]));
+      if (shape.exterior != kNoRow) line("Exterior {}", quoted(volumes_[shape.exterior]));
       plugin_line("Shape", shape.plugin);
       line("AttributeEnd");
     }
@@ -250,8 +259,9 @@ class Printer {
 
   const Description& d_;
   std::string out_;
-  UniqueNames texture_names_, material_names_, object_names_;
-  std::vector<std::string> textures_, materials_, objects_;  ///< printed name of each row
+  UniqueNames texture_names_, material_names_, volume_names_, object_names_;
+  /// Printed name of each row.
+  std::vector<std::string> textures_, materials_, volumes_, objects_;
   bool in_world_ = false;
   std::vector<size_t> lamp_end_;  ///< number of the shape behind the last one that uses the lamp
   std::vector<uint32_t> open_lamps_;

@@ -30,6 +30,7 @@
   YAT_MATERIAL(mirror_film,       MirrorFilm)       \
   YAT_MATERIAL(glass,             Glass)            \
   YAT_MATERIAL(glass_film,        GlassFilm)        \
+  YAT_MATERIAL(absorbing_glass,   AbsorbingGlass)   \
   YAT_MATERIAL(architectural_glass, ArchitecturalGlass) \
   YAT_MATERIAL(null,              Null)
 // clang-format on

@@ -163,17 +163,18 @@ void SceneBuilder::make_named_volume(Statement& s) {
     diagnostics_.warning(s.loc, fmt::format("volume {} is defined again, the one at {} stays with "
                                             "what used it before",
                                             quote(name), diagnostics_.place(earlier->loc)));
-  state_.volumes.define(name, {0, s.loc});
+  resolve_textures(s.parameters, TextureKind::kColor);
+  state_.volumes.define(name, {row_count(description_.volumes.size()), s.loc});
+  description_.volumes.push_back({name, plugin(s, std::move(s.strings[1]))});
 }
 
 void SceneBuilder::current_volume(Statement& s) {
   const std::string& name = s.strings[0];
-  if (name.empty()) return;
-  if (state_.volumes.find(name))
-    diagnostics_.warning(
-        s.loc,
-        fmt::format("volumes are not rendered yet, {} {} is ignored", s.directive, quote(name)),
-        "volumes are not rendered yet");
+  uint32_t& current = s.directive == "Interior" ? state_.interior : state_.exterior;
+  if (name.empty())
+    current = kNoRow;
+  else if (const auto* found = state_.volumes.find(name))
+    current = found->row;
   else
     diagnostics_.error(s.loc, fmt::format("no volume {}{}, {} is ignored", quote(name),
                                           state_.volumes.hint(name, diagnostics_), s.directive));
@@ -205,6 +206,8 @@ void SceneBuilder::shape(Statement& s) {
   entry.material = state_.material;
   entry.area_light = state_.area_light;
   entry.object = state_.object;
+  entry.interior = state_.interior;
+  entry.exterior = state_.exterior;
   description_.shapes.push_back(std::move(entry));
 }
 

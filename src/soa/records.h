@@ -75,6 +75,15 @@ struct Surface {
 };
 static_assert(all_fields_listed<Surface>);
 
+/// The direction of dp/du at a Surface row, for materials that are not the same all around the
+/// normal. Only there where the bin needs it.
+template <template <class> class Of>
+struct Tangent {
+  Of<float> x, y, z;  ///< unit, across ns, scene space
+  YAT_FIELDS(x, y, z)
+};
+static_assert(all_fields_listed<Tangent>);
+
 /// Random numbers of one bounce, each in [0, 1). Columns that a plan does not need stay null.
 template <template <class> class Of>
 struct Randoms {

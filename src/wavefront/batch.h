@@ -45,6 +45,7 @@ struct Batch {
         lens_u(plan.thin_lens ? batch_rows : 0),
         lens_v(plan.thin_lens ? batch_rows : 0),
         surfaces(kChunkRows),
+        tangents(plan.tangents ? kChunkRows : 0),
         chunk_paths(kChunkRows),
         randoms(kChunkRows),
         lights(plan.lights ? kChunkRows : 0) {
@@ -85,6 +86,7 @@ struct Batch {
   Table<CameraSample> camera;
   AlignedArray<float> film_u, film_v, lens_u, lens_v;
   Table<Surface> surfaces;
+  Table<Tangent> tangents;
   Table<PathState> chunk_paths;
   Table<Randoms> randoms;
   Table<LightSample> lights;
@@ -95,8 +97,8 @@ struct Batch {
     size_t total = hits.bytes() + instance.bytes() + bin.bytes() + order.bytes() + shadow.bytes() +
                    occluded.bytes() + sums.bytes() + slot_sample.bytes() + free_slots.bytes() +
                    finished.bytes() + camera.bytes() + film_u.bytes() + film_v.bytes() +
-                   lens_u.bytes() + lens_v.bytes() + surfaces.bytes() + chunk_paths.bytes() +
-                   randoms.bytes() + lights.bytes() + scratch_memory.bytes();
+                   lens_u.bytes() + lens_v.bytes() + surfaces.bytes() + tangents.bytes() +
+                   chunk_paths.bytes() + randoms.bytes() + lights.bytes() + scratch_memory.bytes();
     for (int i = 0; i < 2; ++i) total += rays[i].bytes() + paths[i].bytes();
     return total;
   }

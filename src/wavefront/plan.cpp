@@ -55,6 +55,11 @@ void need_kernels(const Plan& plan) {
            "make_instance_surfaces");
     else
       need(k.make_surfaces[uint32_t(bin.bin.geometry)], k, "make_surfaces");
+    if (bin.bin.tangents)
+      need(bin.bin.instanced
+               ? bool(k.make_instance_tangents[bin.bin.geometry == GeometryKind::kTriangleVertex])
+               : bool(k.make_tangents[uint32_t(bin.bin.geometry)]),
+           k, "make_tangents");
     need(k.shade[uint32_t(bin.bin.material)], k, "shade");
     if (bin.emission) need(k.add_emission, k, "add_emission");
   }
@@ -96,6 +101,7 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
     bin.bin = scene.bins[b];
     const MaterialTraits traits = material_traits(bin.bin.material);
     bin.emission = bin.bin.emissive;
+    plan.tangents = plan.tangents || bin.bin.tangents;
     bin.sample_lights = plan.lights && !traits.delta && !traits.see_through;
     bin.draw_choice = bin.sample_lights && scene.lights.size() > 1;
     bin.draw_lobe = traits.needs_lobe;
@@ -142,6 +148,7 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
     std::string what = fmt::format("bin {}, {} primitives: {} {}", b, bin.bin.primitives,
                                    bin.bin.instanced ? "make_instance_surfaces" : "make_surfaces",
                                    kGeometryNames[uint32_t(bin.bin.geometry)]);
+    if (bin.bin.tangents) what += ", make_tangents";
     if (bin.emission) what += ", add_emission";
     std::string numbers;
     if (bin.sample_lights) numbers += " light";
@@ -187,6 +194,7 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   skipped(plan.environment, "add_environment", "no light lies around the scene");
   skipped(any_bin([](const BinPlan& b) { return b.emission; }), "add_emission",
           "no surface emits light");
+  skipped(plan.tangents, "make_tangents", "every material looks the same from all sides");
   if (!plan.lights)
     skipped(false, "sample_lights, intersect_shadow, add_unoccluded",
             scene.lights.size() ? "paths end at their first vertex" : "no light in the scene");

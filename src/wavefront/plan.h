@@ -32,6 +32,7 @@ struct Plan {
   std::vector<BinPlan> bins;       ///< parallel to Scene::bins; [0] is the ended bin
   uint32_t first_lasting_bin = 1;  ///< of the scene
   bool thin_lens = false;
+  bool tangents = false;                                    ///< some bin needs dp/du
   bool triangles = false, spheres = false, planes = false;  ///< which intersect stages run
   bool instances = false;      ///< shared objects: a second level of trees, and its kernels
   bool instance_mask = false;  ///< as shadow_mask, of shared objects

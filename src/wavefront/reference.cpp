@@ -105,6 +105,7 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
   Vec throughput(start.weight), radiance(0.0);
   double scattered_pdf = 0;  // of the direction under way
   Vec scattered_at(0.0);     // last scattering vertex
+  double passed = 0;         // from there to the ray's origin
   for (;;) {
     const std::optional<Point> hit = nearest(scene, ray);
     if (!hit) {
@@ -129,6 +130,7 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
       ray.origin = hit->position +
                    (glm::dot(hit->ng, ray.direction) > 0 ? 1.0 : -1.0) * hit->offset * hit->ng;
       ray.t_max = double(kRayFar);
+      passed += hit->t;
       continue;
     }
     if (vertex >= options.max_depth) break;
@@ -136,8 +138,9 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
     // Everything on the viewer's side.
     const bool outside = glm::dot(hit->ng, wo) > 0;
     const Vec ng = outside ? hit->ng : -hit->ng, turned = outside ? hit->ns : -hit->ns;
-    const Axes axes(glm::dot(turned, wo) > 0 ? turned : ng);
-    const Bsdf bsdf(scene, material, hit->parameter, {axes.to_local(wo), outside});
+    const Vec up = glm::dot(turned, wo) > 0 ? turned : ng;
+    const Axes axes = scene.bins[hit->bin].tangents ? Axes(up, tangent_of(*hit)) : Axes(up);
+    const Bsdf bsdf(scene, material, hit->parameter, {axes.to_local(wo), outside, hit->t + passed});
     const auto leave = [&](const Vec& wi) {
       return hit->position + (glm::dot(ng, wi) > 0 ? 1.0 : -1.0) * hit->offset * ng;
     };
@@ -170,6 +173,7 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
     }
     scattered_pdf = bounce.pdf;
     scattered_at = hit->position;
+    passed = 0;
     ray = {leave(wi), glm::normalize(wi), double(kRayFar)};
     ++vertex;
     if (!material_traits(material).delta)

@@ -59,6 +59,15 @@ double meet(const PlaneRow<Value>& plane, const Vec& origin, const Vec& directio
   return (double(plane.distance) - glm::dot(normal, origin)) / glm::dot(normal, direction);
 }
 
+/// dp/du of a triangle with these edges, of any length; 0 where its coordinates are degenerate.
+Vec texture_direction(const Triangle& t, const TriangleVertexRow<Value>& w) {
+  const double du1 = double(w.u1) - double(w.u0), du2 = double(w.u2) - double(w.u0);
+  const double dv1 = double(w.v1) - double(w.v0), dv2 = double(w.v2) - double(w.v0);
+  const double determinant = du1 * dv2 - dv1 * du2;
+  if (determinant == 0) return Vec(0.0);
+  return (dv2 * t.e1 - dv1 * t.e2) / determinant;
+}
+
 Point triangle_point(const Scene& scene, uint32_t prim, const TriangleHit& hit) {
   const TriangleRow<Value> row = scene.triangles.row(prim);
   const Triangle triangle(row);
@@ -77,6 +86,7 @@ Point triangle_point(const Scene& scene, uint32_t prim, const TriangleHit& hit) 
                     hit.u * Vec(n.n1_x, n.n1_y, n.n1_z) + hit.v * Vec(n.n2_x, n.n2_y, n.n2_z);
     const double side = glm::dot(sum, point.ng);
     if (side != 0) point.ns = glm::normalize(sum) * (side < 0 ? -1.0 : 1.0);
+    point.along = texture_direction(triangle, n);
   }
   return point;
 }
@@ -128,6 +138,7 @@ Point instance_point(const Scene& scene, const PlacedObject& placed, uint32_t tr
                     hit.u * Vec(n.n1_x, n.n1_y, n.n1_z) + hit.v * Vec(n.n2_x, n.n2_y, n.n2_z);
     const Vec ns = glm::normalize(glm::inverse(glm::transpose(placed.linear)) * sum);
     const double cosine = glm::dot(ns, point.ng);
+    point.along = texture_direction(world, n);
     if (glm::dot(sum, sum) > 0) point.ns = cosine < 0 ? glm::normalize(ns - cosine * point.ng) : ns;
   }
   return point;
@@ -140,6 +151,7 @@ Point sphere_point(const SphereRow<Value>& row, const RaySegment& ray, double t)
   point.t = t;
   point.position = center + double(row.radius) * outward;
   point.ng = point.ns = row.inward ? -outward : outward;
+  point.along = Vec(-point.ng.y, point.ng.x, 0);
   point.offset = kRounding * (largest(center) + double(row.radius));
   point.parameter = row.parameter;
   point.light = row.light;
@@ -223,6 +235,21 @@ bool occluded(const Scene& scene, const Vec& from, const Vec& to) {
   }
   return false;
 }
+
+Vec tangent_of(const Point& point) {
+  const auto across = [&](const Vec& v) { return v - glm::dot(v, point.ns) * point.ns; };
+  const Vec& n = point.ng;
+  Vec t = across(point.along);
+  // LuxRender's choice where there is none (Pharr, Humphreys 2004, CoordinateSystem).
+  if (!(glm::length(t) > 0))
+    t = across(std::fabs(n.x) > std::fabs(n.y) ? Vec(-n.z, 0, n.x) : Vec(0, n.z, -n.y));
+  return glm::normalize(t);
+}
+
+Axes::Axes(const Vec& normal, const Vec& tangent)
+    : x(glm::normalize(tangent - glm::dot(tangent, normal) * normal)),
+      y(glm::cross(normal, x)),
+      z(normal) {}
 
 Axes::Axes(const Vec& n) : z(n) {
   const double sign = std::copysign(1.0, n.z);

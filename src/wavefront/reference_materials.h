@@ -25,6 +25,8 @@ Bounce sample(const NullParameters<Value>&, const LocalView&, double, double, do
 // reference_microfacet.cpp
 Bounce sample(const MirrorFilmParameters<Value>&, const LocalView&, double, double, double);
 Bounce sample(const GlassFilmParameters<Value>&, const LocalView&, double lobe, double, double);
+Bounce sample(const AbsorbingGlassParameters<Value>&, const LocalView&, double lobe, double,
+              double);
 Bounce sample(const ArchitecturalGlassParameters<Value>&, const LocalView&, double lobe, double,
               double);
 

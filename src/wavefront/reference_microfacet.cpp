@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/exponential.hpp>
 #include <numbers>
 
 #include "wavefront/reference_materials.h"
@@ -194,6 +195,16 @@ Bounce sample(const GlassFilmParameters<Value>& p, const LocalView& view, double
                 view, lobe, u, v);
 }
 
+Bounce sample(const AbsorbingGlassParameters<Value>& p, const LocalView& view, double lobe,
+              double u, double v) {
+  Bounce bounce =
+      sample(GlassParameters<Value>{p.kr_r, p.kr_g, p.kr_b, p.kt_r, p.kt_g, p.kt_b, p.index}, view,
+             lobe, u, v);
+  if (!view.outside)
+    bounce.weight *= glm::exp(-view.distance * Vec(p.sigma_r, p.sigma_g, p.sigma_b));
+  return bounce;
+}
+
 Bounce sample(const ArchitecturalGlassParameters<Value>& p, const LocalView& view, double lobe,
               double, double) {
   const Vec& wo = view.wo;
@@ -364,7 +375,7 @@ struct Added {
   double loss(double c) const {
     float in_c[6];
     for (int i = 0; i < 6; ++i) in_c[i] = float(polynomial(kCookTorranceLoss[i], 5, m));
-    return std::fmax(polynomial(in_c, 6, c) - double(kCookTorranceMargin), 0);
+    return std::fmax(c * polynomial(in_c, 6, c) - double(kCookTorranceMargin), 0);
   }
   Vec value(double cos_o, double cos_i) const {
     return colour * (loss(cos_o) * loss(cos_i) / (kPi * average));

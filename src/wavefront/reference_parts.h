@@ -25,6 +25,7 @@ struct Point {
   double t;  ///< distance along the ray
   Vec position;
   Vec ng, ns;     ///< unit; the shape's outside
+  Vec along;      ///< dp/du of any length, or 0
   double offset;  ///< what a ray that leaves must keep off: rounding of this arithmetic
   uint32_t bin;   ///< row of Scene::bins
   uint32_t parameter, light;
@@ -32,6 +33,8 @@ struct Point {
 
 /// The nearest hit in (0, t_max], by trying every primitive.
 std::optional<Point> nearest(const Scene& scene, const RaySegment& ray);
+/// Unit, across the shading normal: along dp/du where there is one.
+Vec tangent_of(const Point& point);
 /// Whether anything that is not see-through lies strictly between the two points.
 bool occluded(const Scene& scene, const Vec& from, const Vec& to);
 
@@ -41,6 +44,8 @@ bool occluded(const Scene& scene, const Vec& from, const Vec& to);
 struct Axes {
   Vec x, y, z;
   explicit Axes(const Vec& normal);
+  /// x as nearly along `tangent` as it can be.
+  Axes(const Vec& normal, const Vec& tangent);
   Vec to_local(const Vec& v) const { return {glm::dot(x, v), glm::dot(y, v), glm::dot(z, v)}; }
   Vec to_scene(const Vec& v) const { return v.x * x + v.y * y + v.z * z; }
 };
@@ -62,6 +67,7 @@ struct Bounce {
 struct LocalView {
   Vec wo;  ///< local, wo.z >= 0
   bool outside;
+  double distance = 0;  ///< from the last scattering vertex or the camera [m]
 };
 
 /// A material row seen from somewhere.

@@ -190,6 +190,17 @@ void Worker::shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end) {
     kernels_.make_surfaces[uint32_t(bin.bin.geometry)](
         view_, batch_.order.data() + begin, batch_.rays[current_].view(), batch_.hits.view(),
         batch_.paths[current_].view(), batch_.surfaces.columns(), batch_.chunk_paths.columns(), n);
+  Tangent<ConstColumn> tangents{};
+  if (bin.bin.tangents) {
+    if (bin.bin.instanced)
+      kernels_.make_instance_tangents[bin.bin.geometry == GeometryKind::kTriangleVertex](
+          view_, batch_.order.data() + begin, batch_.instance.data(), surfaces,
+          batch_.tangents.columns(), n);
+    else
+      kernels_.make_tangents[uint32_t(bin.bin.geometry)](view_, surfaces, batch_.tangents.columns(),
+                                                         n);
+    tangents = batch_.tangents.view();
+  }
   count(Stage::kSurface, n);
 
   if (bin.emission) {
@@ -238,7 +249,7 @@ void Worker::shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end) {
   clock_.enter(Stage::kShade, n);
   const uint32_t material = uint32_t(bin.bin.material);
   const uint32_t first_path = out_.path_count;
-  kernels_.shade[material]({surfaces, paths, drawn, lights, view_.parameters[material]},
+  kernels_.shade[material]({surfaces, paths, drawn, lights, view_.parameters[material], tangents},
                            plan_.transport, out_, counted_.drops, n);
   if (features_.active())
     features_.record_albedo(out_.paths, batch_.sums.columns(), first_path, out_.path_count);

@@ -2,6 +2,7 @@
 // The headers of every material in the registry (scene/registry.h): the one list that the
 // preprocessor cannot make of it.
 
+#include "kernels/materials/absorbing_glass.h"
 #include "kernels/materials/architectural_glass.h"
 #include "kernels/materials/cook_torrance.h"
 #include "kernels/materials/glass.h"

@@ -49,8 +49,8 @@ inline constexpr MaterialTraits kCookTorranceSingleTraits{.name = "cook_torrance
                                                           .needs_lobe = true,
                                                           .needs_direction = true};
 
-/// 1 - E(c) = max(0, sum of [i][j] c^i m^j - kCookTorranceMargin), and 1 - E_avg = sum of [j] m^j,
-/// no less than twice the integral of (1 - E(c)) c.
+/// 1 - E(c) = max(0, c * sum of [i][j] c^i m^j - kCookTorranceMargin), and 1 - E_avg = sum of [j]
+/// m^j, no less than twice the integral of (1 - E(c)) c.
 inline constexpr float kCookTorranceLoss[6][5] = {
     {0.22318f, 6.22385f, -32.40952f, 48.79265f, -22.90447f},
     {-4.89197f, 15.42211f, 38.89207f, -106.02394f, 60.63159f},
@@ -58,14 +58,14 @@ inline constexpr float kCookTorranceLoss[6][5] = {
     {-34.07894f, 412.05236f, -1285.41085f, 1695.72124f, -761.38609f},
     {26.04676f, -369.40973f, 1276.12167f, -1786.59193f, 831.46280f},
     {-7.51171f, 119.58296f, -438.36660f, 633.99666f, -300.84630f}};
-inline constexpr float kCookTorranceAverageLoss[6] = {0.00221f,  0.11293f, 0.75317f,
-                                                      -0.98842f, 1.01727f, -0.43097f};
+inline constexpr float kCookTorranceAverageLoss[6] = {0.00143f, -0.02805f, 0.41031f,
+                                                      0.50218f, -0.92904f, 0.37199f};
 inline constexpr float kCookTorranceMargin = .002f;
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {
 
-/// 1 - E of the model at one roughness: a polynomial in the cosine.
+/// 1 - E of the model at one roughness: c times a polynomial in the cosine c.
 template <class A>
 struct CookTorranceLoss {
   Float<A> coefficient[6];
@@ -87,7 +87,7 @@ struct CookTorranceLoss {
   YAT_INLINE Float<A> at(const Float<A>& c) const {
     Float<A> sum = coefficient[5];
     for (int i = 4; i >= 0; --i) sum = sum * c + coefficient[i];
-    return xsimd::max(sum - Float<A>(kCookTorranceMargin), Float<A>(0.f));
+    return xsimd::max(sum * c - Float<A>(kCookTorranceMargin), Float<A>(0.f));
   }
 };
 
@@ -158,7 +158,7 @@ struct CookTorranceModel {
     const Facets facets = Facets::of(p);
     const Vec3<A> h = MicrofacetLobe<A>::half_vector(view.wo, wi);
     const Float<A> o_h = dot(view.wo, h), lit = h.z + h.z;
-    const Float<A> shadowed = xsimd::min(Float<A>(1.f) / (view.wo.z * wi.z),
+    const Float<A> shadowed = xsimd::min(Float<A>(1.f) / xsimd::abs(view.wo.z * wi.z),
                                          xsimd::min(lit / (o_h * wi.z), lit / (o_h * view.wo.z)));
     Spectrum<A> f = (Float<A>(.25f) * facets.distribution(h) * shadowed) * fresnel(p, o_h);
     if constexpr (kCompensated) {

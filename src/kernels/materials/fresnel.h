@@ -49,7 +49,8 @@ template <class A>
 YAT_INLINE Float<A> fresnel_general(const Float<A>& n, const Float<A>& k, const Float<A>& cos) {
   const Float<A> zero(0.f), one(1.f), two(2.f), n2 = n * n, q = n2 + k * k, c2 = cos * cos;
   const Float<A> x = (one - c2) / n2;  // sin^2 in the material, were it a dielectric
-  const Float<A> rest = xsimd::max(one - x, zero), a = two * k * k * x;
+  // 1 - x, without cancelling where n is near 1.
+  const Float<A> rest = xsimd::max(((n2 - one) + c2) / n2, zero), a = two * k * k * x;
   const Float<A> t2 = Float<A>(.5f) * (rest + xsimd::sqrt(rest * rest + a * a));
   const Float<A> b = two * n * cos * xsimd::sqrt(t2);
   const Float<A> p = (q * c2 - b + t2) / (q * c2 + b + t2);

@@ -49,10 +49,15 @@ struct RoughGlass {
     Float<A> cos_i;  ///< of the refracted direction; 0: total reflection
     Spectrum<A> reflected, refracted;
     Float<A> chance;  ///< of choosing reflection: by what each brings
-    static YAT_INLINE Facet of(const Parameters& p, const Float<A>& cos_o, const Float<A>& eta) {
+    static YAT_INLINE Float<A> refracted_cos(const Float<A>& cos_o, const Float<A>& eta) {
+      const Float<A> zero(0.f), one(1.f);
+      return xsimd::sqrt(xsimd::max(one - eta * eta * (one - cos_o * cos_o), zero));
+    }
+    static YAT_INLINE Facet of(const Parameters& p, const Float<A>& cos_o, const Float<A>& cos_i,
+                               const Float<A>& eta) {
       const Float<A> zero(0.f), one(1.f);
       Facet f;
-      f.cos_i = xsimd::sqrt(xsimd::max(one - eta * eta * (one - cos_o * cos_o), zero));
+      f.cos_i = cos_i;
       const Float<A> fresnel = fresnel_dielectric<A>(cos_o, f.cos_i, eta);
       f.reflected = fresnel * Spectrum<A>{p.kr_r, p.kr_g, p.kr_b};
       f.refracted = (one - fresnel) * Spectrum<A>{p.kt_r, p.kt_g, p.kt_b};
@@ -78,7 +83,9 @@ struct RoughGlass {
     const Float<A> length2 = dot(sum, sum);
     const Vec3<A> h = (xsimd::copysign(one, sum.z) / xsimd::sqrt(length2)) * sum;
     const Float<A> o_h = dot(view.wo, h), i_h = dot(wi, h);
-    const Facet facet = Facet::of(p, o_h, eta);
+    // Near total reflection the direction itself is the better source of its cosine.
+    const Facet facet = Facet::of(
+        p, o_h, xsimd::select(reflects, Facet::refracted_cos(o_h, eta), xsimd::abs(i_h)), eta);
     // Refraction leaves on the facet's other side.
     const Mask<A> possible = (o_h > zero) & (reflects | (refracts & (i_h < zero)));
     const Float<A> visible = lobe.visible_distribution(view.wo, h);
@@ -111,7 +118,7 @@ struct RoughGlass {
     const Vec3<A>& wo = view.wo;
     const Vec3<A> h = lobe.visible_normal(wo, u, v);
     const Float<A> o_h = xsimd::max(dot(wo, h), zero);
-    const Facet facet = Facet::of(p, o_h, eta);
+    const Facet facet = Facet::of(p, o_h, Facet::refracted_cos(o_h, eta), eta);
     const Mask<A> reflects = u_lobe < facet.chance;
     BsdfSample<A> s;
     s.wi = select(reflects, (o_h + o_h) * h - wo, (eta * o_h - facet.cos_i) * h - eta * wo);
