@@ -102,4 +102,12 @@ inline std::vector<Case<ScatterParameters>> cases(ScatterParameters<Value>) {
   return all;
 }
 
+/// Not BSDFs: tests/test_split.cpp.
+inline std::vector<Case<MixParameters>> cases(MixParameters<Value>) {
+  return {};
+}
+inline std::vector<Case<DoubleSideParameters>> cases(DoubleSideParameters<Value>) {
+  return {};
+}
+
 }  // namespace yat

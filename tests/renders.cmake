@@ -7,3 +7,5 @@ yat_test(spawned_rays LABELS fast per_isa LIBS yat_wavefront SOURCES test_spawne
 yat_test(material_renders LABELS render statistics per_isa LIBS yat_wavefront
          SOURCES test_material_renders.cpp)
 yat_test(features LABELS render per_isa LIBS yat_wavefront SOURCES test_features.cpp)
+
+yat_test(split LABELS render statistics per_isa LIBS yat_wavefront SOURCES test_split.cpp)

@@ -20,7 +20,8 @@ void expect_equal(const Plugin& a, const Plugin& b) {
     EXPECT_EQ(p.floats, q.floats);
     EXPECT_EQ(p.integers, q.integers);
     EXPECT_EQ(p.texture, q.texture);
-    if (p.type != ParameterType::kTexture) {
+    EXPECT_EQ(p.material, q.material);
+    if (p.type != ParameterType::kTexture && p.material == kNone) {
       EXPECT_EQ(p.strings, q.strings);
     }
   }

@@ -16,8 +16,10 @@ YAT_INLINE Float<A> unit_float(const UInt<A>& word) {
 template <class A, SamplerKind kSampler>
 void draw(uint32_t seed, Dimension dimension, const uint32_t* pixel, const uint32_t* sample,
           const uint32_t* depth, float* first, float* second, uint32_t n) noexcept {
+  // A path may cross several surfaces at one vertex number, and each has numbers of its own.
+  const UInt<A> counted(dimension == Dimension::kChild ? 0xffffffffu : 0xffffu);
   for (uint32_t row = 0; row < n; row += kLanes<A>) {
-    const UInt<A> vertex = depth ? load<A>(depth, row) & UInt<A>(0xffffu) : UInt<A>(0u);
+    const UInt<A> vertex = depth ? load<A>(depth, row) & counted : UInt<A>(0u);
     const UInt<A> key = random_key(seed, uint32_t(dimension), load<A>(pixel, row), vertex);
     const UInt<A> index = load<A>(sample, row);
     WordPair<UInt<A>> words;

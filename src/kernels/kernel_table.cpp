@@ -19,6 +19,7 @@ const KernelTable* kernel_table() {
     fill_light(t);
     fill_environment(t);
     fill_shade(t);
+    fill_split(t);
     fill_accumulate(t);
     fill_traverse(t);
     fill_instances(t);

@@ -13,13 +13,15 @@ void fill_material(KernelTable& table, MaterialKind kind, auto traits) {
   using A = NativeArch;
   constexpr MaterialTraits t = traits();
   const uint32_t k = uint32_t(kind);
-  if constexpr (t.see_through)
-    table.shade[k] = &shade_see_through<A>;
-  else
-    table.shade[k] =
-        &shade_scattering<A, Material, Record, t.delta, t.needs_lobe, t.needs_direction>;
-  table.bsdf_evaluate[k] = &bsdf_evaluate<A, Material, Record>;
-  table.bsdf_sample[k] = &bsdf_sample<A, Material, Record>;
+  if constexpr (!t.splits) {
+    if constexpr (t.see_through)
+      table.shade[k] = &shade_see_through<A>;
+    else
+      table.shade[k] =
+          &shade_scattering<A, Material, Record, t.delta, t.needs_lobe, t.needs_direction>;
+    table.bsdf_evaluate[k] = &bsdf_evaluate<A, Material, Record>;
+    table.bsdf_sample[k] = &bsdf_sample<A, Material, Record>;
+  }
 }
 
 }  // namespace

@@ -58,7 +58,9 @@ enum class SamplerKind : uint32_t { kIndependent, kSobol, kCount };
 
 /// Named random dimensions, each a pair of numbers (kernels/rng.h says how they are spread).
 /// Camera dimensions are drawn once per path, the others at every scattering vertex.
-enum class Dimension : uint32_t { kFilm, kLens, kLight, kChoice, kBsdf, kRoulette, kCount };
+/// kChild, which child of a material that is made of others, also at surfaces that are only
+/// crossed.
+enum class Dimension : uint32_t { kFilm, kLens, kLight, kChoice, kBsdf, kRoulette, kChild, kCount };
 
 /// How paths go, decided once per render.
 struct TransportOptions {
@@ -104,7 +106,7 @@ struct KernelTable {
 
   // -- generate ---------------------------------------------------------------------------------
   /// Two random numbers in [0,1) per row for `dimension` of the vertex path depth (low 16 bits of
-  /// depth; null = 0). `second` may be null.
+  /// depth, for kChild all of it; null = 0). `second` may be null.
   void (*draw[uint32_t(SamplerKind::kCount)])(uint32_t seed, Dimension dimension,
                                               const uint32_t* pixel, const uint32_t* sample,
                                               const uint32_t* depth, float* first, float* second,
@@ -200,6 +202,39 @@ struct KernelTable {
   /// Direct light (if input.lights is given) and the next ray.
   void (*shade[kMaterialKinds])(const ShadeInput&, const TransportOptions&, ShadeOutput&, DropLog&,
                                 uint32_t n) noexcept;
+
+  // -- split: materials made of two others (kernels/split.h); null for other kinds --------------
+  /// Per row: share[i] in [0,1], with which the second child is there, and the parameter rows of
+  /// both. turned: the surfaces are seen from the other side.
+  void (*split[kMaterialKinds])(const ParameterView&, const Surface<ConstColumn>&, bool turned,
+                                float* share, uint32_t* first, uint32_t* second,
+                                uint32_t n) noexcept;
+  /// child[i] = 0 or 1 by the number u[i] in [0,1), and the number that is left, in [0,1) again.
+  void (*choose_child)(const float* share, const float* u, uint32_t* child, float* left,
+                       uint32_t n) noexcept;
+  /// Rows order[0..n), dense; normals point to the other side where turned.
+  void (*take_rows)(const Surface<ConstColumn>&, const PathState<ConstColumn>&, const float* u,
+                    const uint32_t* order, bool turned, const Surface<Column>&,
+                    const PathState<Column>&, float* u_out, uint32_t n) noexcept;
+
+  // -- veils: shadow rays through what lets a part of the light pass (kernels/veil.h) -----------
+  /// Packs the shadow rays that are free so far; returns their number.
+  uint32_t (*start_veils)(const ShadowRay<ConstColumn>&, const uint32_t* occluded,
+                          const Ray<Column>&, const PathState<Column>&, uint32_t n) noexcept;
+  /// The weights of two children: weight (1 - share), weight share.
+  void (*share_weight)(const float* weight, const float* share, float* first, float* second,
+                       uint32_t n) noexcept;
+  /// Adds weight[i] times what the material lets pass unturned to r, g, b. Null where nothing does.
+  void (*veil[kMaterialKinds])(const ParameterView&, const Surface<ConstColumn>&, bool turned,
+                               const float* weight, float* r, float* g, float* b,
+                               uint32_t n) noexcept;
+  /// Appends from row `count` on what is left of the rays behind their veil; returns the new count.
+  uint32_t (*pass_veils)(const Surface<ConstColumn>&, const PathState<ConstColumn>&, const float* r,
+                         const float* g, const float* b, const Ray<Column>&,
+                         const PathState<Column>&, uint32_t count, uint32_t n) noexcept;
+  /// Adds rows of bin 0, which met no further veil, to their samples. A slot occurs at most once.
+  void (*end_veils)(const uint32_t* bin, const PathState<ConstColumn>&, const SampleSum<Column>&,
+                    uint32_t n) noexcept;
 
   // -- accumulate -------------------------------------------------------------------------------
   /// Adds shadow rays that are not occluded to their samples. A slot occurs at most once per call.

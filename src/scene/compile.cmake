@@ -6,6 +6,7 @@ target_sources(
           ${CMAKE_CURRENT_SOURCE_DIR}/compile.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_camera.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_coated.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_composite.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_diffuse.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_environment.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_film.cpp
@@ -23,6 +24,7 @@ target_sources(
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_shapes.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_sky.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_textures.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_veils.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/data_files.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/daylight.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/ies.cpp

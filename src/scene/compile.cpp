@@ -115,6 +115,7 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   if (scene.triangles.size() > 0)
     scene.tree =
         build_tree(scene.triangles.view(), occludes, {options.block_width, kd_tree, {}}, pool);
+  build_veils({options.block_width, kd_tree, {}}, pool, scene);
   return scene;
 }
 
@@ -127,6 +128,15 @@ SceneView Scene::view() const {
   view.geometry.planes = planes.view();
   view.geometry.prim_bin = prim_bin.data();
   view.geometry.all_occlude = all_occlude;
+  const auto from = []<template <template <class> class> class Record>(Rows<Record> rows,
+                                                                       uint32_t first) {
+    return Rows<Record>{rows.words + size_t(first) * row_words<Record>, rows.count - first};
+  };
+  view.veils.tree = veils.view;
+  view.veils.spheres = from(spheres.view(), first_veil_sphere);
+  view.veils.first_sphere = triangles.size() + first_veil_sphere;
+  view.veils.planes = from(planes.view(), first_veil_plane);
+  view.veils.first_plane = triangles.size() + spheres.size() + first_veil_plane;
   view.instances = instances.view();
   view.lights.rows = lights.view();
   view.lights.choice = light_choice.view();
@@ -153,7 +163,7 @@ SceneView Scene::view() const {
 
 size_t Scene::bytes() const {
   size_t sum = triangles.bytes() + triangle_vertices.bytes() + spheres.bytes() + planes.bytes() +
-               prim_bin.bytes() + tree.bytes() + instances.object_bytes() +
+               prim_bin.bytes() + tree.bytes() + veils.bytes() + instances.object_bytes() +
                instances.instance_bytes() + lights.bytes() + light_choice.bytes() +
                light_maps.bytes() + skies.bytes() + light_texels.bytes() + light_cells.bytes() +
                filter_quantile_x.bytes() + filter_quantile_y.bytes() + filter_marginal.bytes() +

@@ -19,6 +19,28 @@
 
 namespace yat {
 
+/// What becomes of light that meets a surface and is not scattered.
+enum class Passing : uint32_t {
+  kSolid,  ///< it stops
+  kVeil,   ///< a part of it goes on
+  kAll,    ///< it goes on: there is no surface for it
+};
+
+/// A material but for its parameters: what takes one way through the stages.
+struct MaterialForm {
+  MaterialKind kind = MaterialKind::kMatte;
+  uint32_t split = kNone;  ///< row of Scene::splits, if the kind is made of others
+  auto operator<=>(const MaterialForm&) const = default;
+};
+/// What a material is made of. Its record holds the children's rows.
+struct MaterialSplit {
+  MaterialForm child[2];
+  bool turned[2] = {};  ///< what is the surface's outside is the child's inside
+  auto operator<=>(const MaterialSplit&) const = default;
+};
+/// Materials may be made of others this many times over.
+inline constexpr uint32_t kMaxSplitDepth = 8;
+
 /// Rows of the scene that take the same way through the stages. Bin 0 is for paths that have ended.
 struct Bin {
   GeometryKind geometry = GeometryKind::kTriangleFlat;
@@ -27,6 +49,8 @@ struct Bin {
   bool tangents = false;    ///< the material needs dp/du
   bool instanced = false;   ///< triangles of shared objects; else rows of the scene's own tables
   uint64_t primitives = 0;  ///< in this bin; those of an object count once per instance
+  uint32_t split = kNone;   ///< row of Scene::splits, if the material is made of others
+  Passing passing = Passing::kSolid;
 };
 inline constexpr uint32_t kMaxBins = 1024;  ///< in practice below 40
 
@@ -75,12 +99,16 @@ struct Scene {
   RowTable<PlaneRow> planes;
   AlignedArray<uint32_t> prim_bin;
   Tree tree;
+  Tree veils;  ///< of the triangles that are veils, again
+  /// Spheres and planes from these on are veils.
+  uint32_t first_veil_sphere = 0, first_veil_plane = 0;
   Instances instances;
   RowTable<LightRow> lights;
   RowTable<LightChoice> light_choice;
   RowTable<LightMapRow> light_maps;
   RowTable<SkyRow> skies;
   AlignedArray<float> light_texels, light_cells;
+  std::vector<MaterialSplit> splits;  ///< of children before their parents
   std::array<AlignedArray<uint32_t>, kMaterialKinds> parameters;  ///< row_words<its record> per row
   std::array<uint32_t, kMaterialKinds> parameter_rows{};
   AlignedArray<float> filter_quantile_x, filter_quantile_y;

@@ -18,6 +18,19 @@ glm::dvec3 position(const Mesh& mesh, size_t i) {
           double(mesh.positions[3 * i + 2])};
 }
 
+/// Rows of an analytic shape in the order of its table: so that its veils are a table of their own.
+struct VeilsLast {
+  std::vector<uint32_t> rows;
+  uint32_t first_veil = 0;
+  explicit VeilsLast(const std::vector<BinKey>& keys) {
+    for (const bool veils : {false, true}) {
+      if (veils) first_veil = uint32_t(rows.size());
+      for (uint32_t r = 0; r < keys.size(); ++r)
+        if ((keys[r].passing == Passing::kVeil) == veils) rows.push_back(r);
+    }
+  }
+};
+
 bool is_finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -44,10 +57,12 @@ void add_to_bounds(const PlacedShape& placed, Bounds& bounds) {
 
 BinKey BinKey::of(GeometryKind geometry, const MaterialRef& material, bool emissive,
                   Placing placing) {
-  return {.lasting = emissive || material_traits(material.kind).see_through,
+  return {.lasting = emissive || material.passing != Passing::kSolid,
           .placing = placing,
           .geometry = geometry,
           .material = material.kind,
+          .split = material.split,
+          .passing = material.passing,
           .emissive = emissive,
           .tangents = material.tangents};
 }
@@ -65,7 +80,9 @@ void BinKeys::number(Scene& scene, Diagnostics& diagnostics) {
                           .material = key.material,
                           .emissive = key.emissive,
                           .tangents = key.tangents,
-                          .instanced = key.placing == Placing::kByInstance});
+                          .instanced = key.placing == Placing::kByInstance,
+                          .split = key.split,
+                          .passing = key.passing});
     if (!key.lasting) scene.first_lasting_bin = bin + 1;
   }
 }
@@ -121,7 +138,7 @@ void GeometryRows::add_sphere(const PlacedShape& placed) {
   }
   row.inward = placed.reverse_orientation;
   row.parameter = placed.material.row;
-  row.occludes = placed.material.kind != MaterialKind::kNull;
+  row.occludes = placed.material.passing == Passing::kSolid;
   row.light = kNone;
   if (placed.emissive()) {
     row.light = uint32_t(lights_.size());
@@ -147,7 +164,7 @@ void GeometryRows::add_plane(const PlacedShape& placed) {
   row.normal_x = float(normal.x), row.normal_y = float(normal.y), row.normal_z = float(normal.z);
   row.distance = float(glm::dot(normal, placed.placement.origin - center_));
   row.parameter = placed.material.row;
-  row.occludes = placed.material.kind != MaterialKind::kNull;
+  row.occludes = placed.material.passing == Passing::kSolid;
   planes_.push_back(row);
   plane_keys_.push_back(
       BinKey::of(GeometryKind::kPlane, placed.material, placed.emissive(), Placing::kOnce));
@@ -172,7 +189,7 @@ void GeometryRows::finish(const BinKeys& keys, Scene& scene, std::vector<uint8_t
   for (size_t r = 0; r < triangle_runs_.size(); ++r) {
     const uint32_t end = r + 1 < triangle_runs_.size() ? triangle_runs_[r + 1].first : n;
     const uint32_t bin = keys.bin(triangle_runs_[r].key);
-    const bool see_through = scene.bins[bin].material == MaterialKind::kNull;
+    const bool see_through = scene.bins[bin].passing != Passing::kSolid;
     if (see_through && occludes.empty()) occludes.assign(n, 1);
     scene.all_occlude = scene.all_occlude && !see_through;
     scene.bins[bin].primitives += end - prim;
@@ -184,14 +201,16 @@ void GeometryRows::finish(const BinKeys& keys, Scene& scene, std::vector<uint8_t
         scene.triangle_vertices.set(prim, vertices_[vertex_row++]);
     }
   }
-  for (uint32_t s = 0; s < spheres_.size(); ++s, ++prim) {
-    scene.spheres.set(s, spheres_[s]);
-    ++scene.bins[scene.prim_bin[prim] = keys.bin(sphere_keys_[s])].primitives;
-  }
-  for (uint32_t p = 0; p < planes_.size(); ++p, ++prim) {
-    scene.planes.set(p, planes_[p]);
-    ++scene.bins[scene.prim_bin[prim] = keys.bin(plane_keys_[p])].primitives;
-  }
+  const auto set = [&](auto& table, const auto& rows, const std::vector<BinKey>& row_keys) {
+    const VeilsLast order(row_keys);
+    for (uint32_t r = 0; r < rows.size(); ++r, ++prim) {
+      table.set(r, rows[order.rows[r]]);
+      ++scene.bins[scene.prim_bin[prim] = keys.bin(row_keys[order.rows[r]])].primitives;
+    }
+    return order.first_veil;
+  };
+  scene.first_veil_sphere = set(scene.spheres, spheres_, sphere_keys_);
+  scene.first_veil_plane = set(scene.planes, planes_, plane_keys_);
   scene.degenerate_triangles += degenerate_;
 }
 

@@ -16,10 +16,6 @@ namespace {
 MaterialRef build_null(MaterialCompiler& compiler, Parameters&) {
   return compiler.add<NullParameters>(MaterialKind::kNull, {0u});
 }
-/// Types that are made of other materials: not yet.
-MaterialRef build_composite(MaterialCompiler& compiler, Parameters& p) {
-  return compiler.stand_in(p, "", .5);
-}
 
 struct MaterialType {
   std::string_view name;
@@ -46,9 +42,9 @@ constexpr MaterialType kTypes[] = {
     {"metal", &build_metal},
     {"metal2", &build_metal2},
     {"shinymetal", &build_shinymetal},
-    {"mix", &build_composite},
-    {"layered", &build_composite},
-    {"doubleside", &build_composite},
+    {"mix", &build_mix},
+    {"layered", &build_layered},
+    {"doubleside", &build_doubleside},
 };
 
 const std::vector<std::string_view>& material_types() {
@@ -66,6 +62,11 @@ void accept_common(Parameters& p) {
   p.accept({"type", "bumpmapsampledistance", "compo_visible_material", "compo_visible_emission",
             "compo_visible_indirect_material", "compo_visible_indirect_emission",
             "compo_override_alpha", "compo_override_alpha_value", "name"});
+}
+
+/// Whether what the material becomes depends on the volumes around its shape.
+bool sees_volumes(std::string_view type) {
+  return type.starts_with("glass") || type == "mix" || type == "doubleside" || type == "layered";
 }
 
 }  // namespace
@@ -135,15 +136,57 @@ MaterialRef MaterialCompiler::build(const Plugin& plugin) {
 
 MaterialRef MaterialCompiler::compile(uint32_t entry, const VolumesAround& volumes) {
   const bool is_default = entry >= description_.materials.size();
-  // Only glass looks at volumes: the others stay one row.
-  const bool fills = !is_default && description_.materials[entry].plugin.type.starts_with("glass");
-  volumes_ = fills ? volumes : VolumesAround{};
-  const auto [done, is_new] =
-      done_.try_emplace({is_default ? kNone : entry, volumes_}, MaterialRef{});
-  if (is_new)
-    done->second = is_default ? add_matte(*this, glm::dvec3(.9), 0)
-                              : build(description_.materials[entry].plugin);
-  return done->second;
+  // Only glass, and what may be made of it, looks at volumes: the others stay one row.
+  const VolumesAround of_caller = volumes_;
+  volumes_ = !is_default && sees_volumes(description_.materials[entry].plugin.type)
+                 ? volumes
+                 : VolumesAround{};
+  const std::pair key(is_default ? kNone : entry, volumes_);
+  const bool is_new = done_.try_emplace(key).second;
+  if (is_new && !is_default) {
+    const MaterialRef made = build(description_.materials[entry].plugin);
+    done_[key] = made;
+  } else if (!done_[key]) {
+    // A scene's text cannot name what comes after; a description made otherwise may.
+    if (!is_default)
+      diagnostics_.error(description_.materials[entry].plugin.loc, "a material is made of itself");
+    done_[key] = add_matte(*this, glm::dvec3(.9), 0);
+  }
+  volumes_ = of_caller;
+  return *done_[key];
+}
+
+std::optional<MaterialRef> MaterialCompiler::child(Parameters& p, std::string_view name) {
+  const uint32_t row = p.material(name);
+  if (row < description_.materials.size()) {
+    const MaterialRef made = compile(row, volumes_);
+    if (split_depth(form_of(made)) < kMaxSplitDepth) return made;
+    diagnostics_.error(p.loc(name),
+                       fmt::format("materials are made of others more than {} times over: {} is "
+                                   "matte with Kd 0.9",
+                                   kMaxSplitDepth, p.what()));
+  } else if (!p.given(name)) {
+    diagnostics_.error(p.plugin().loc,
+                       fmt::format("{} has no \"{}\": matte with Kd 0.9 is used", p.what(), name));
+  } else {
+    diagnostics_.error(p.loc(name), fmt::format("\"{}\" of {} names no material: matte with Kd 0.9 "
+                                                "is used",
+                                                name, p.what()));
+  }
+  return std::nullopt;
+}
+
+uint32_t MaterialCompiler::split_row(const MaterialSplit& split) {
+  const auto known = std::find(splits_.begin(), splits_.end(), split);
+  if (known != splits_.end()) return uint32_t(known - splits_.begin());
+  splits_.push_back(split);
+  return uint32_t(splits_.size() - 1);
+}
+
+uint32_t MaterialCompiler::split_depth(const MaterialForm& form) const {
+  if (form.split == kNone) return 0;
+  const MaterialSplit& split = splits_[form.split];
+  return 1 + std::max(split_depth(split.child[0]), split_depth(split.child[1]));
 }
 
 void MaterialCompiler::finish(Scene& scene) {
@@ -151,6 +194,7 @@ void MaterialCompiler::finish(Scene& scene) {
     scene.parameters[kind] = AlignedArray<uint32_t>(std::span<const uint32_t>(words_[kind]));
     scene.parameter_rows[kind] = rows_[kind];
   }
+  scene.splits = std::move(splits_);
 }
 
 }  // namespace yat

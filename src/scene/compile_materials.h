@@ -46,7 +46,11 @@ class MaterialCompiler {
           std::memcpy(&words[size_t(row) * row_words<Record> + index], &field, 4);
         },
         record);
-    return {kind, row};
+    const MaterialTraits traits = material_traits(kind);
+    const Passing passing = traits.see_through ? Passing::kAll
+                            : traits.veil      ? Passing::kVeil
+                                               : Passing::kSolid;
+    return {.kind = kind, .row = row, .passing = passing};
   }
   /// The same for a material with a lobe of two roughnesses.
   template <template <template <class> class> class Record>
@@ -67,6 +71,18 @@ class MaterialCompiler {
   /// Matte instead of a type that has no kernel, in the colour of parameter `color` (empty: in
   /// grey `fallback`), with a warning.
   MaterialRef stand_in(Parameters& parameters, std::string_view color, double fallback);
+  /// The material that a string parameter names. Empty, and an error, if there is none.
+  std::optional<MaterialRef> child(Parameters& parameters, std::string_view name);
+  /// A material of `kind`, made of two others; `turned`: see MaterialSplit.
+  template <template <template <class> class> class Record>
+  MaterialRef add_split(MaterialKind kind, const Record<Value>& record, const MaterialRef& first,
+                        const MaterialRef& second, bool first_turned, bool second_turned) {
+    MaterialRef made = add<Record>(kind, record);
+    made.split = split_row({{form_of(first), form_of(second)}, {first_turned, second_turned}});
+    made.passing = first.passing == second.passing ? first.passing : Passing::kVeil;
+    made.tangents = first.tangents || second.tangents;
+    return made;
+  }
 
   /// Of the shape that the material is built for.
   const VolumesAround& volumes() const { return volumes_; }
@@ -77,12 +93,19 @@ class MaterialCompiler {
 
  private:
   MaterialRef build(const Plugin& plugin);
+  static MaterialForm form_of(const MaterialRef& material) {
+    return {material.kind, material.split};
+  }
+  uint32_t split_row(const MaterialSplit& split);
+  uint32_t split_depth(const MaterialForm& form) const;
 
   const Description& description_;
   const ColourModel& colour_;
   Diagnostics& diagnostics_;
   VolumesAround volumes_;
-  std::map<std::pair<uint32_t, VolumesAround>, MaterialRef> done_;
+  /// Empty: under way.
+  std::map<std::pair<uint32_t, VolumesAround>, std::optional<MaterialRef>> done_;
+  std::vector<MaterialSplit> splits_;
   std::array<std::vector<uint32_t>, kMaterialKinds> words_;
   std::array<uint32_t, kMaterialKinds> rows_{};
 };
@@ -118,6 +141,10 @@ MaterialRef build_glossycoating(MaterialCompiler& compiler, Parameters& paramete
 MaterialRef build_glossy_lossy(MaterialCompiler& compiler, Parameters& parameters);
 MaterialRef build_glossytranslucent(MaterialCompiler& compiler, Parameters& parameters);
 MaterialRef build_carpaint(MaterialCompiler& compiler, Parameters& parameters);
+// compile_composite.cpp
+MaterialRef build_mix(MaterialCompiler& compiler, Parameters& parameters);
+MaterialRef build_doubleside(MaterialCompiler& compiler, Parameters& parameters);
+MaterialRef build_layered(MaterialCompiler& compiler, Parameters& parameters);
 // compile_metals.cpp
 MaterialRef build_mirror(MaterialCompiler& compiler, Parameters& parameters);
 MaterialRef build_metal(MaterialCompiler& compiler, Parameters& parameters);

@@ -56,7 +56,7 @@ class ShapePlacer {
     bool emissive() const { return radiance.x > 0 || radiance.y > 0 || radiance.z > 0; }
   };
   /// What a mesh is to rays: instances that differ in this cannot share a tree.
-  enum class Presence : uint8_t { kAbsent, kSeeThrough, kSolid };
+  enum class Presence : uint8_t { kAbsent, kSeeThrough, kVeil, kSolid };
 
   const ShapeInfo& info(uint32_t index);
   glm::dvec3 radiance(const ShapeEntry& entry, const CompiledShape& shape);

@@ -74,7 +74,9 @@ double float_parameter(Parameters& parameters, std::string_view name, double fal
 struct MaterialRef {
   MaterialKind kind = MaterialKind::kMatte;
   uint32_t row = 0;
-  bool tangents = false;  ///< looks different from other sides: needs dp/du
+  bool tangents = false;   ///< looks different from other sides: needs dp/du
+  uint32_t split = kNone;  ///< row of Scene::splits
+  Passing passing = Passing::kSolid;
 };
 
 // ---- Shapes (lxs 5) --------------------------------------------------------------------------
@@ -168,6 +170,8 @@ struct BinKey {
   Placing placing = Placing::kOnce;
   GeometryKind geometry = GeometryKind::kTriangleFlat;
   MaterialKind material = MaterialKind::kMatte;
+  uint32_t split = kNone;
+  Passing passing = Passing::kSolid;
   bool emissive = false;
   bool tangents = false;
   static BinKey of(GeometryKind geometry, const MaterialRef& material, bool emissive,
@@ -221,6 +225,9 @@ class GeometryRows {
   std::vector<LightRow<Value>> lights_;
   uint32_t degenerate_ = 0;
 };
+
+/// The tree of the triangles that are veils, once prim_bin is known.
+void build_veils(const TreeOptions& options, ThreadPool& pool, Scene& scene);
 
 // ---- Lights (lxs 6) --------------------------------------------------------------------------
 

@@ -67,7 +67,8 @@ void ShapePlacer::place_all() {
 
 ShapePlacer::Presence ShapePlacer::presence(const ShapeInfo& info,
                                             const MaterialRef& material) const {
-  if (material.kind != MaterialKind::kNull) return Presence::kSolid;
+  if (material.passing == Passing::kSolid) return Presence::kSolid;
+  if (material.passing == Passing::kVeil) return Presence::kVeil;
   // A null surface that does not shine is not there.
   return info.emissive() ? Presence::kSeeThrough : Presence::kAbsent;
 }
@@ -113,6 +114,8 @@ std::optional<uint32_t> ShapePlacer::share(uint32_t object, uint64_t instances,
     placed.material = materials_.compile(first.material != kNone ? first.material : entry.material,
                                          {entry.interior, entry.exterior});
     placed.radiance = shapes_[i].radiance;
+    // Shadow rays walk through the veils of the scene's own tables.
+    if (placed.material.passing == Passing::kVeil) return {};
     shared.meshes.push_back(std::move(placed));
   }
   if (shared.meshes.empty()) return {};

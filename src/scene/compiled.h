@@ -100,6 +100,14 @@ struct GeometryView {
   bool all_occlude = true;             ///< no see-through triangle: shadow rays need no mask
 };
 
+/// What lets a part of the light pass, again: for shadow rays that nothing else stops.
+struct VeilView {
+  TreeView tree;  ///< over the triangles; leaves hold rows of GeometryView::triangles
+  Rows<SphereRow> spheres;
+  Rows<PlaneRow> planes;
+  uint32_t first_sphere = 0, first_plane = 0;  ///< primitive rows of the first of each
+};
+
 // ---- Instances -------------------------------------------------------------------------------
 
 /// Where an object is placed. The map is x = w * p + org, w and org exactly as stored: p in object
@@ -329,6 +337,7 @@ inline constexpr uint32_t kMaxMaterialKinds = 64;
 
 struct SceneView {
   GeometryView geometry;
+  VeilView veils;
   InstancesView instances;  ///< rows.count = 0: none
   LightView lights;
   CameraView camera;

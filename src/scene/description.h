@@ -36,7 +36,10 @@ struct Parameter {
   std::vector<int32_t> integers;     ///< integer
   std::vector<std::string> strings;  ///< string; texture (one: its name); bool: "true" / "false"
   uint32_t texture = 0xffffffffu;    ///< texture: row of Description::textures, or kNone if unknown
-  mutable bool used = false;         ///< set by whoever reads it; what stays unread is warned about
+  /// A string that names a material of which another is made: row of Description::materials, below
+  /// that of the other; kNone if unknown.
+  uint32_t material = 0xffffffffu;
+  mutable bool used = false;  ///< set by whoever reads it; what stays unread is warned about
 };
 
 /// `Directive "type" parameters`.

@@ -89,6 +89,7 @@ class SceneBuilder {
   Matrix checked_columns(const Statement& statement);
   Plugin plugin(Statement& statement, std::string type);
   void resolve_textures(std::vector<Parameter>& parameters, TextureKind otherwise);
+  void resolve_materials(std::string_view type, std::vector<Parameter>& parameters);
   void resolve_texture(Parameter& parameter, TextureKind wanted);
   void place_instance(const Statement& statement, std::string_view name);
 

@@ -119,6 +119,11 @@ std::string Parameters::text(std::string_view name, std::string_view fallback) {
   return p->strings[0];
 }
 
+uint32_t Parameters::material(std::string_view name) {
+  const Parameter* p = find(name, ParameterType::kString);
+  return p ? p->material : 0xffffffffu;
+}
+
 glm::dvec3 Parameters::triple(std::string_view name, ParameterType type, glm::dvec3 fallback) {
   const Parameter* p = find(name, type);
   if (!p) return fallback;

@@ -40,6 +40,10 @@ class Parameters {
   /// The parameter if it is given as a texture, else null.
   const Parameter* texture(std::string_view name);
 
+  /// Row of Description::materials that a string parameter names; kNone if it is not given, or
+  /// named none (which the parser has reported).
+  uint32_t material(std::string_view name);
+
   /// Whether the name is given under any type. Does not count as use.
   bool given(std::string_view name) const;
   /// Where the parameter is, or the directive.

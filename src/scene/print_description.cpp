@@ -136,6 +136,8 @@ class Printer {
       };
       if (p.type == ParameterType::kTexture)
         add(quoted(texture_reference(p)));
+      else if (p.material != kNoRow)
+        add(quoted(materials_[p.material]));
       else
         for (const std::string& s : p.strings) add(quoted(s));
       for (const float x : p.floats) add(x);

@@ -32,6 +32,8 @@
   YAT_MATERIAL(glass_film,        GlassFilm)        \
   YAT_MATERIAL(absorbing_glass,   AbsorbingGlass)   \
   YAT_MATERIAL(architectural_glass, ArchitecturalGlass) \
+  YAT_MATERIAL(mix,               Mix)              \
+  YAT_MATERIAL(double_side,       DoubleSide)       \
   YAT_MATERIAL(null,              Null)
 // clang-format on
 
@@ -52,6 +54,12 @@ struct MaterialTraits {
   bool see_through;       ///< lets shadow rays and paths pass unchanged (null)
   bool needs_lobe;        ///< chooses between lobes: draws Randoms::lobe
   bool needs_direction;   ///< draws Randoms::bsdf_u, bsdf_v
+  /// Hands each of its rows on to one of two materials: it has share() instead of the three
+  /// functions of a BSDF (kernels/split.h).
+  bool splits = false;
+  /// Lets a part of the light pass unturned: it has transmittance(parameters, view), by which
+  /// shadow rays are weakened, and its paths go on as through see-through surfaces.
+  bool veil = false;
 };
 
 /// Throws std::logic_error for kCount.

@@ -119,8 +119,31 @@ void SceneBuilder::texture(Statement& s) {
                                    plugin(s, std::move(s.strings[2])), state_.ctm});
 }
 
+/// What a material is made of are the materials of these names that are visible here.
+void SceneBuilder::resolve_materials(std::string_view type, std::vector<Parameter>& parameters) {
+  static constexpr std::string_view kMadeOfOthers[] = {"mix", "layered", "doubleside",
+                                                       "glossycoating"};
+  static constexpr std::string_view kNames[] = {
+      "namedmaterial1", "namedmaterial2",     "namedmaterial3",   "namedmaterial4",
+      "basematerial",   "frontnamedmaterial", "backnamedmaterial"};
+  if (!is_one_of(type, kMadeOfOthers)) return;
+  for (Parameter& parameter : parameters) {
+    if (parameter.type != ParameterType::kString || parameter.strings.empty() ||
+        !is_one_of(parameter.name, kNames))
+      continue;
+    const std::string& name = parameter.strings[0];
+    const ScopedNames::Entry* found = state_.materials.find(name);
+    parameter.material = found ? found->row : kNoRow;
+    if (!found)
+      diagnostics_.error(parameter.loc, fmt::format("no material {}{}, for {}", quote(name),
+                                                    state_.materials.hint(name, diagnostics_),
+                                                    quote(parameter.name)));
+  }
+}
+
 void SceneBuilder::material(Statement& s) {
   resolve_textures(s.parameters, TextureKind::kColor);
+  resolve_materials(s.strings[0], s.parameters);
   state_.material = row_count(description_.materials.size());
   description_.materials.push_back({{}, plugin(s, std::move(s.strings[0]))});
 }
@@ -139,6 +162,7 @@ void SceneBuilder::make_named_material(Statement& s) {
         s.loc, fmt::format("material {} has no \"string type\", taken as matte", quote(name)));
   }
   resolve_textures(s.parameters, TextureKind::kColor);
+  resolve_materials(type, s.parameters);
   if (const auto* earlier = state_.materials.find(name))
     diagnostics_.warning(s.loc, fmt::format("material {} is defined again, the one at {} stays "
                                             "with what used it before",

@@ -13,17 +13,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "kernels/table.h"
 #include "soa/columns.h"
 #include "soa/records.h"
 #include "wavefront/plan.h"
+#include "wavefront/split_rows.h"
 
 namespace yat {
-
-/// Rows of a chunk. Surface, PathState, Randoms and LightSample take 176 bytes a row: 44 KB of a
-/// 48 KB L1 cache at 256.
-inline constexpr uint32_t kChunkRows = 256;
 
 struct Batch {
   /// sums_per_path: rows of SampleSum that each path has (FeatureRecorder).
@@ -48,7 +46,10 @@ struct Batch {
         tangents(plan.tangents ? kChunkRows : 0),
         chunk_paths(kChunkRows),
         randoms(kChunkRows),
-        lights(plan.lights ? kChunkRows : 0) {
+        lights(plan.lights ? kChunkRows : 0),
+        child_u(plan.split_levels ? kChunkRows : 0),
+        splits(plan.split_levels),
+        veils(plan.veils ? batch_rows : 0) {
     for (int i = 0; i < 2; ++i) {
       rays[i].resize(batch_rows);
       paths[i].resize(batch_rows);
@@ -56,6 +57,9 @@ struct Batch {
     size_t scratch_bytes = 0;
     if (plan.triangles)
       scratch_bytes = plan.kernels->traversal_scratch_bytes(scene.tree.view, batch_rows);
+    if (plan.veils)
+      scratch_bytes = std::max(scratch_bytes,
+                               plan.kernels->traversal_scratch_bytes(scene.veils.view, batch_rows));
     if (plan.instances)
       scratch_bytes = std::max(
           scratch_bytes, plan.kernels->instance_scratch_bytes(scene.instances.view(), batch_rows));
@@ -90,6 +94,9 @@ struct Batch {
   Table<PathState> chunk_paths;
   Table<Randoms> randoms;
   Table<LightSample> lights;
+  AlignedArray<float> child_u;    ///< of a chunk: decides between the children of its material
+  std::vector<SplitRows> splits;  ///< per level of materials made of others
+  VeilRows veils;
   AlignedArray<std::byte> scratch_memory;
   Scratch scratch;
 
@@ -100,6 +107,8 @@ struct Batch {
                    lens_u.bytes() + lens_v.bytes() + surfaces.bytes() + tangents.bytes() +
                    chunk_paths.bytes() + randoms.bytes() + lights.bytes() + scratch_memory.bytes();
     for (int i = 0; i < 2; ++i) total += rays[i].bytes() + paths[i].bytes();
+    total += child_u.bytes() + veils.bytes();
+    for (const SplitRows& level : splits) total += level.bytes();
     return total;
   }
 };

@@ -17,7 +17,8 @@ void FeatureRecorder::start(const SampleSum<Column>& sums, const uint32_t* slots
   }
 }
 
-void FeatureRecorder::record_surfaces(const Surface<Column>& s, const PathState<Column>& paths,
+void FeatureRecorder::record_surfaces(const Surface<ConstColumn>& s,
+                                      const PathState<ConstColumn>& paths,
                                       const SampleSum<Column>& sums, uint32_t n) {
   const auto add = [&](Feature feature, size_t pixel, float x, float y, float z) {
     if (film_->has(feature)) film_->plane(feature).add(pixel, x, y, z);
@@ -41,10 +42,10 @@ void FeatureRecorder::record_surfaces(const Surface<Column>& s, const PathState<
   }
 }
 
-void FeatureRecorder::turn_indirect(const PathState<Column>& paths, uint32_t n) const {
+void FeatureRecorder::turn_indirect(const uint32_t* depth, uint32_t* slots, uint32_t n) const {
   if (!split_) return;
   for (uint32_t i = 0; i < n; ++i)
-    if ((paths.depth[i] & 0xffffu) && paths.slot[i] < rows_) paths.slot[i] += rows_;
+    if ((depth[i] & 0xffffu) && slots[i] < rows_) slots[i] += rows_;
 }
 
 void FeatureRecorder::record_albedo(const PathState<Column>& paths, const SampleSum<Column>& sums,

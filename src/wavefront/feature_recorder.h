@@ -30,10 +30,10 @@ class FeatureRecorder {
   /// Paths that start in these slots.
   void start(const SampleSum<Column>& sums, const uint32_t* slots, uint32_t n);
   /// Surfaces of a bin that scatters: those that are their paths' first.
-  void record_surfaces(const Surface<Column>& surfaces, const PathState<Column>& paths,
+  void record_surfaces(const Surface<ConstColumn>& surfaces, const PathState<ConstColumn>& paths,
                        const SampleSum<Column>& sums, uint32_t n);
   /// Moves paths that are about to be scattered again to the row of indirect light.
-  void turn_indirect(const PathState<Column>& paths, uint32_t n) const;
+  void turn_indirect(const uint32_t* depth, uint32_t* slots, uint32_t n) const;
   /// Paths as they go on from a first surface: rows [first, end) of what a shade kernel wrote.
   void record_albedo(const PathState<Column>& paths, const SampleSum<Column>& sums, uint32_t first,
                      uint32_t end);

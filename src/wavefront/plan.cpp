@@ -26,6 +26,13 @@ void need(bool present, const KernelTable& kernels, std::string_view kernel) {
   if (!present) throw std::logic_error(fmt::format("{}: no kernel {}", kernels.isa, kernel));
 }
 
+void need_material(const ShadePlan& plan, const KernelTable& k) {
+  if (plan.splits)
+    need(k.split[uint32_t(plan.material)], k, "split");
+  else
+    need(k.shade[uint32_t(plan.material)], k, "shade");
+}
+
 void need_kernels(const Plan& plan) {
   const KernelTable& k = *plan.kernels;
   need(k.draw[uint32_t(plan.sampler)], k, "draw");
@@ -60,9 +67,43 @@ void need_kernels(const Plan& plan) {
                ? bool(k.make_instance_tangents[bin.bin.geometry == GeometryKind::kTriangleVertex])
                : bool(k.make_tangents[uint32_t(bin.bin.geometry)]),
            k, "make_tangents");
-    need(k.shade[uint32_t(bin.bin.material)], k, "shade");
+    need_material(bin, k);
     if (bin.emission) need(k.add_emission, k, "add_emission");
   }
+  for (const ShadePlan& child : plan.children) need_material(child, k);
+  if (plan.split_levels) need(k.choose_child && k.take_rows, k, "choose_child");
+  if (plan.veils)
+    need(k.start_veils && k.share_weight && k.pass_veils && k.end_veils, k, "start_veils");
+}
+
+}  // namespace
+
+namespace {
+
+/// The plan of a material, with those of what it is made of in plan.children.
+ShadePlan plan_material(const Scene& scene, const MaterialForm& form, bool roulette, uint32_t level,
+                        Plan& plan) {
+  ShadePlan out;
+  out.material = form.kind;
+  const MaterialTraits traits = material_traits(form.kind);
+  out.splits = traits.splits;
+  if (out.splits) {
+    const MaterialSplit& split = scene.splits[form.split];
+    plan.split_levels = std::max(plan.split_levels, level);
+    for (int c = 0; c < 2; ++c) {
+      const ShadePlan child = plan_material(scene, split.child[c], roulette, level + 1, plan);
+      out.child[c] = uint32_t(plan.children.size());
+      plan.children.push_back(child);
+      out.turned[c] = split.turned[c];
+    }
+    return out;
+  }
+  out.sample_lights = plan.lights && !traits.delta && !traits.see_through;
+  out.draw_choice = out.sample_lights && scene.lights.size() > 1;
+  out.draw_lobe = traits.needs_lobe;
+  out.draw_direction = traits.needs_direction;
+  out.draw_roulette = roulette && !traits.see_through;
+  return out;
 }
 
 }  // namespace
@@ -99,18 +140,38 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
   for (uint32_t b = 1; b < scene.bins.size(); ++b) {
     BinPlan& bin = plan.bins[b];
     bin.bin = scene.bins[b];
-    const MaterialTraits traits = material_traits(bin.bin.material);
     bin.emission = bin.bin.emissive;
     plan.tangents = plan.tangents || bin.bin.tangents;
-    bin.sample_lights = plan.lights && !traits.delta && !traits.see_through;
-    bin.draw_choice = bin.sample_lights && scene.lights.size() > 1;
-    bin.draw_lobe = traits.needs_lobe;
-    bin.draw_direction = traits.needs_direction;
-    bin.draw_roulette = roulette && !traits.see_through;
+    static_cast<ShadePlan&>(bin) =
+        plan_material(scene, {bin.bin.material, bin.bin.split}, roulette, 1, plan);
+    plan.veils = plan.veils || (plan.lights && bin.bin.passing == Passing::kVeil);
   }
   need_kernels(plan);
   return plan;
 }
+
+namespace {
+
+std::string describe_material(const Plan& plan, const ShadePlan& material) {
+  const std::string_view name = material_traits(material.material).name;
+  if (material.splits)
+    return fmt::format(", split {} [{}] [{}]", name,
+                       describe_material(plan, plan.children[material.child[0]]).substr(2),
+                       describe_material(plan, plan.children[material.child[1]]).substr(2));
+  std::string numbers;
+  if (material.sample_lights) numbers += " light";
+  if (material.draw_choice) numbers += " choice";
+  if (material.draw_lobe) numbers += " lobe";
+  if (material.draw_direction) numbers += " bsdf";
+  if (material.draw_roulette) numbers += " roulette";
+  std::string what;
+  if (!numbers.empty()) what += ", draw" + numbers;
+  if (material.sample_lights)
+    what += fmt::format(", sample_lights ({})", kLightNames[plan.light_kernel]);
+  return what + fmt::format(", shade {}", name);
+}
+
+}  // namespace
 
 std::string describe_plan(const Plan& plan, const Scene& scene) {
   std::string text;
@@ -150,17 +211,7 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
                                    kGeometryNames[uint32_t(bin.bin.geometry)]);
     if (bin.bin.tangents) what += ", make_tangents";
     if (bin.emission) what += ", add_emission";
-    std::string numbers;
-    if (bin.sample_lights) numbers += " light";
-    if (bin.draw_choice) numbers += " choice";
-    if (bin.draw_lobe) numbers += " lobe";
-    if (bin.draw_direction) numbers += " bsdf";
-    if (bin.draw_roulette) numbers += " roulette";
-    if (!numbers.empty()) what += ", draw" + numbers;
-    if (bin.sample_lights)
-      what += fmt::format(", sample_lights ({})", kLightNames[plan.light_kernel]);
-    what += fmt::format(", shade {}", material_traits(bin.bin.material).name);
-    line(Stage::kShade, what);
+    line(Stage::kShade, what + describe_material(plan, bin));
   }
   if (plan.lights) {
     line(Stage::kIntersectShadow,
@@ -172,6 +223,11 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
                      !plan.instances      ? ""
                      : plan.instance_mask ? ", shadow_instances (masked)"
                                           : ", shadow_instances"));
+    if (plan.veils)
+      line(Stage::kIntersectShadow,
+           fmt::format("veils: {} nodes, {} spheres, {} planes", scene.veils.view.node_count,
+                       scene.spheres.size() - scene.first_veil_sphere,
+                       scene.planes.size() - scene.first_veil_plane));
     line(Stage::kAccumulate, fmt::format("add_unoccluded: {} lights", scene.lights.size()));
   }
 
@@ -182,6 +238,10 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   const auto any_bin = [&](auto condition) {
     for (uint32_t b = 1; b < plan.bins.size(); ++b)
       if (condition(plan.bins[b])) return true;
+    for (const ShadePlan& child : plan.children) {
+      if constexpr (requires { condition(child); })
+        if (condition(child)) return true;
+    }
     return false;
   };
   skipped(plan.triangles, "intersect_closest", "no triangle in the scene");
@@ -189,6 +249,7 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   skipped(plan.planes, "intersect_planes", "no plane in the scene");
   skipped(plan.instances, "intersect_instances", "no object is stored once for its instances");
   skipped(plan.thin_lens, "draw lens", "the camera is a pinhole");
+  skipped(plan.veils, "veils", "no surface lets a part of the light pass");
   skipped(plan.shadow_mask || !plan.lights, "intersect_shadow (masked)",
           "every triangle stops shadow rays");
   skipped(plan.environment, "add_environment", "no light lies around the scene");
@@ -199,14 +260,14 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
     skipped(false, "sample_lights, intersect_shadow, add_unoccluded",
             scene.lights.size() ? "paths end at their first vertex" : "no light in the scene");
   else
-    skipped(any_bin([](const BinPlan& b) { return b.draw_choice; }) || scene.lights.size() > 1,
+    skipped(any_bin([](const ShadePlan& b) { return b.draw_choice; }) || scene.lights.size() > 1,
             "draw choice", "there is one light");
-  skipped(any_bin([](const BinPlan& b) { return b.draw_lobe; }), "draw lobe",
+  skipped(any_bin([](const ShadePlan& b) { return b.draw_lobe; }), "draw lobe",
           "no material chooses between lobes");
-  skipped(any_bin([](const BinPlan& b) { return b.draw_roulette; }), "draw roulette",
+  skipped(any_bin([](const ShadePlan& b) { return b.draw_roulette; }), "draw roulette",
           "no path gets as far as Russian roulette");
   for (uint32_t kind = 0; kind < kMaterialKinds; ++kind)
-    skipped(any_bin([&](const BinPlan& b) { return b.bin.material == MaterialKind(kind); }),
+    skipped(any_bin([&](const ShadePlan& b) { return b.material == MaterialKind(kind); }),
             "shade " + std::string(material_traits(MaterialKind(kind)).name),
             "no surface of this material");
   return text;

@@ -13,10 +13,12 @@ namespace yat {
 
 enum class Integrator { kPath, kDirect };
 
-/// What is done with the rows of one bin.
-struct BinPlan {
-  Bin bin;
-  bool emission = false;       ///< rows have a light row: add_emission runs
+/// What is done with surfaces of one material.
+struct ShadePlan {
+  MaterialKind material = MaterialKind::kMatte;
+  bool splits = false;         ///< rows go on to the children, and nothing else is done
+  uint32_t child[2] = {};      ///< rows of Plan::children
+  bool turned[2] = {};         ///< see MaterialSplit
   bool sample_lights = false;  ///< the scene has lights and the material is not delta
   // Random numbers that the rows need.
   bool draw_choice = false;  ///< which light: there is more than one
@@ -25,18 +27,27 @@ struct BinPlan {
   bool draw_roulette = false;
 };
 
+/// What is done with the rows of one bin.
+struct BinPlan : ShadePlan {
+  Bin bin;
+  bool emission = false;  ///< rows have a light row: add_emission runs
+};
+
 struct Plan {
   const KernelTable* kernels = nullptr;
   SamplerKind sampler = SamplerKind::kSobol;
   TransportOptions transport;
-  std::vector<BinPlan> bins;       ///< parallel to Scene::bins; [0] is the ended bin
-  uint32_t first_lasting_bin = 1;  ///< of the scene
+  std::vector<BinPlan> bins;        ///< parallel to Scene::bins; [0] is the ended bin
+  uint32_t first_lasting_bin = 1;   ///< of the scene
+  std::vector<ShadePlan> children;  ///< of materials that are made of others
+  uint32_t split_levels = 0;        ///< how many times over materials are made of others
   bool thin_lens = false;
   bool tangents = false;                                    ///< some bin needs dp/du
   bool triangles = false, spheres = false, planes = false;  ///< which intersect stages run
   bool instances = false;      ///< shared objects: a second level of trees, and its kernels
   bool instance_mask = false;  ///< as shadow_mask, of shared objects
   bool shadow_mask = false;    ///< some triangle is see-through: the masked any-hit kernel
+  bool veils = false;          ///< some surface lets a part of the light pass: shadow rays go on
   uint32_t light_kernel = 0;   ///< index into KernelTable::sample_lights
   bool lights = false;
   bool environment = false;  ///< lights that rays find which leave the scene

@@ -104,6 +104,7 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
   RaySegment ray = start.ray;
   Vec throughput(start.weight), radiance(0.0);
   double scattered_pdf = 0;  // of the direction under way
+  uint32_t crossed = 0;      // surfaces that the path went through
   Vec scattered_at(0.0);     // last scattering vertex
   double passed = 0;         // from there to the ray's origin
   for (;;) {
@@ -117,8 +118,13 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
       }
       break;
     }
-    const MaterialKind material = scene.bins[hit->bin].material;
     const Vec wo = -ray.direction;
+    const bool met_outside = glm::dot(hit->ng, wo) > 0;
+    const float child = random_pair(plan.sampler, options.seed, Dimension::kChild, pixel, sample,
+                                    crossed << 16 | vertex)
+                            .first;
+    const ChosenMaterial chosen = choose_material(scene, *hit, met_outside, child);
+    const MaterialKind material = chosen.kind;
 
     if (const double cos = glm::dot(hit->ng, wo); hit->light != kNone && cos > 0) {
       double weight = 1;
@@ -131,16 +137,17 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
                    (glm::dot(hit->ng, ray.direction) > 0 ? 1.0 : -1.0) * hit->offset * hit->ng;
       ray.t_max = double(kRayFar);
       passed += hit->t;
+      ++crossed;
       continue;
     }
     if (vertex >= options.max_depth) break;
 
     // Everything on the viewer's side.
-    const bool outside = glm::dot(hit->ng, wo) > 0;
-    const Vec ng = outside ? hit->ng : -hit->ng, turned = outside ? hit->ns : -hit->ns;
+    const bool outside = met_outside != chosen.turned;
+    const Vec ng = met_outside ? hit->ng : -hit->ng, turned = met_outside ? hit->ns : -hit->ns;
     const Vec up = glm::dot(turned, wo) > 0 ? turned : ng;
     const Axes axes = scene.bins[hit->bin].tangents ? Axes(up, tangent_of(*hit)) : Axes(up);
-    const Bsdf bsdf(scene, material, hit->parameter, {axes.to_local(wo), outside, hit->t + passed});
+    const Bsdf bsdf(scene, material, chosen.row, {axes.to_local(wo), outside, hit->t + passed});
     const auto leave = [&](const Vec& wi) {
       return hit->position + (glm::dot(ng, wi) > 0 ? 1.0 : -1.0) * hit->offset * ng;
     };
@@ -153,7 +160,8 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
       if (!black(light.arriving) && glm::dot(ng, light.wi) * wi.z > 0) {
         const double weight = light.pdf > 0 ? power_heuristic(light.pdf, bsdf.pdf(wi)) : 1;
         const Vec add = throughput * bsdf.evaluate(wi) * std::fabs(wi.z) * light.arriving * weight;
-        if (!black(add) && !occluded(scene, leave(light.wi), light.to)) radiance += add;
+        if (!black(add) && !occluded(scene, leave(light.wi), light.to))
+          radiance += add * through_veils(scene, leave(light.wi), light.to);
       }
     }
 

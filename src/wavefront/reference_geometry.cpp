@@ -213,9 +213,7 @@ std::optional<Point> nearest(const Scene& scene, const RaySegment& ray) {
 bool occluded(const Scene& scene, const Vec& from, const Vec& to) {
   const Vec way = to - from;
   const auto between = [](double t) { return t > 0 && t < 1; };
-  const auto bin_stops = [&](uint32_t bin) {
-    return !material_traits(scene.bins[bin].material).see_through;
-  };
+  const auto bin_stops = [&](uint32_t bin) { return scene.bins[bin].passing == Passing::kSolid; };
   const auto stops = [&](uint32_t prim) { return bin_stops(scene.prim_bin[prim]); };
   for (uint32_t i = 0; i < scene.triangles.size(); ++i) {
     const auto hit = meet(Triangle(scene.triangles.row(i)), from, way);

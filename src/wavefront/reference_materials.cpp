@@ -3,7 +3,6 @@
 #include "wavefront/reference_materials.h"
 
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 
 namespace yat::reference {
@@ -13,16 +12,10 @@ namespace {
 /// Calls visit with the record of a material row.
 template <class Visit>
 auto with_parameters(const Scene& scene, MaterialKind kind, uint32_t row, Visit&& visit) {
-  const uint32_t* const table = scene.parameters[uint32_t(kind)].data();
-  const auto read = [&]<template <template <class> class> class Record>(Record<Value> out) {
-    const uint32_t* words = table + size_t(row) * row_words<Record>;
-    for_each_field([&](auto index, auto& field) { std::memcpy(&field, words + index, 4); }, out);
-    return visit(out);
-  };
   switch (kind) {
 #define YAT_MATERIAL(file, Type) \
   case MaterialKind::k##Type:    \
-    return read(Type##Parameters<Value>{});
+    return visit(parameters<Type##Parameters>(scene, kind, row));
     YAT_MATERIALS(YAT_MATERIAL)
 #undef YAT_MATERIAL
     case MaterialKind::kCount:
@@ -60,8 +53,12 @@ double Bsdf::pdf(const Vec& wi) const {
 }
 
 Bounce Bsdf::sample(double lobe, double u, double v) const {
-  return with_parameters(scene_, kind_, row_,
-                         [&](const auto& p) { return reference::sample(p, view_, lobe, u, v); });
+  return with_parameters(scene_, kind_, row_, [&](const auto& p) {
+    if constexpr (requires { reference::sample(p, view_, lobe, u, v); })
+      return reference::sample(p, view_, lobe, u, v);
+    else
+      return Bounce{};  // made of others: choose_material() has gone on to one of them
+  });
 }
 
 Bounce sample(const MirrorParameters<Value>& p, const LocalView& view, double, double, double) {

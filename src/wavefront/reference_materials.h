@@ -8,10 +8,21 @@
 // of which delta materials have the last one only. Formulas are those of textbooks and of the scene
 // format, not those of the kernels.
 
+#include <cstring>
+
 #include "kernels/materials/all.h"
 #include "wavefront/reference_parts.h"
 
 namespace yat::reference {
+
+/// A row of a material's table.
+template <template <template <class> class> class Record>
+Record<Value> parameters(const Scene& scene, MaterialKind kind, uint32_t row) {
+  const uint32_t* words = scene.parameters[uint32_t(kind)].data() + size_t(row) * row_words<Record>;
+  Record<Value> out;
+  for_each_field([&](auto index, auto& field) { std::memcpy(&field, words + index, 4); }, out);
+  return out;
+}
 
 double largest(const Vec& c);
 /// Oren, Nayar 1994 as in lxs 7.2: f pi / Kd; sigma in degrees, both directions above the surface.

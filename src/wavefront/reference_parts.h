@@ -35,8 +35,10 @@ struct Point {
 std::optional<Point> nearest(const Scene& scene, const RaySegment& ray);
 /// Unit, across the shading normal: along dp/du where there is one.
 Vec tangent_of(const Point& point);
-/// Whether anything that is not see-through lies strictly between the two points.
+/// Whether anything solid lies strictly between the two points.
 bool occluded(const Scene& scene, const Vec& from, const Vec& to);
+/// What the veils between two points, nothing solid in between, let pass.
+Vec through_veils(const Scene& scene, const Vec& from, const Vec& to);
 
 // ---- Warps -------------------------------------------------------------------------------------
 
@@ -85,6 +87,15 @@ class Bsdf {
   uint32_t row_;
   LocalView view_;
 };
+
+/// What a bin's material is at a point: one of its children, if it is made of others.
+struct ChosenMaterial {
+  MaterialKind kind;
+  uint32_t row;
+  bool turned;  ///< its outside is the surface's inside
+};
+/// u in [0, 1) decides.
+ChosenMaterial choose_material(const Scene& scene, const Point& point, bool outside, float u);
 
 // ---- Lights
 // --------------------------------------------------------------------------------------

@@ -168,17 +168,16 @@ void Worker::shade() {
       shade_bin(plan_.bins[b], begin, std::min(begin + kChunkRows, bin_begin_[b + 1]));
 }
 
-void Worker::draw(Dimension dimension, float* first, float* second, uint32_t n) {
-  const PathState<Column>& paths = batch_.chunk_paths.columns();
+void Worker::draw(Dimension dimension, const PathState<ConstColumn>& paths, float* first,
+                  float* second, uint32_t n) {
   kernels_.draw[uint32_t(plan_.sampler)](plan_.transport.seed, dimension, paths.pixel, paths.sample,
                                          paths.depth, first, second, n);
 }
 
 void Worker::shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end) {
   const uint32_t n = end - begin;
-  const Surface<ConstColumn> surfaces = batch_.surfaces.view();
-  const PathState<ConstColumn> paths = batch_.chunk_paths.view();
-  const Randoms<Column>& randoms = batch_.randoms.columns();
+  ChunkRows rows{
+      batch_.surfaces.view(), batch_.chunk_paths.view(), {}, batch_.chunk_paths.columns().slot, n};
 
   clock_.enter(Stage::kSurface, n);
   if (bin.bin.instanced)
@@ -190,70 +189,126 @@ void Worker::shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end) {
     kernels_.make_surfaces[uint32_t(bin.bin.geometry)](
         view_, batch_.order.data() + begin, batch_.rays[current_].view(), batch_.hits.view(),
         batch_.paths[current_].view(), batch_.surfaces.columns(), batch_.chunk_paths.columns(), n);
-  Tangent<ConstColumn> tangents{};
   if (bin.bin.tangents) {
     if (bin.bin.instanced)
       kernels_.make_instance_tangents[bin.bin.geometry == GeometryKind::kTriangleVertex](
-          view_, batch_.order.data() + begin, batch_.instance.data(), surfaces,
+          view_, batch_.order.data() + begin, batch_.instance.data(), rows.surfaces,
           batch_.tangents.columns(), n);
     else
-      kernels_.make_tangents[uint32_t(bin.bin.geometry)](view_, surfaces, batch_.tangents.columns(),
-                                                         n);
-    tangents = batch_.tangents.view();
+      kernels_.make_tangents[uint32_t(bin.bin.geometry)](view_, rows.surfaces,
+                                                         batch_.tangents.columns(), n);
+    rows.tangents = batch_.tangents.view();
   }
   count(Stage::kSurface, n);
 
   if (bin.emission) {
     clock_.enter(Stage::kEmission, n);
-    kernels_.add_emission(view_, surfaces, paths, batch_.sums.columns(), counted_.drops, n);
+    kernels_.add_emission(view_, rows.surfaces, rows.paths, batch_.sums.columns(), counted_.drops,
+                          n);
     count(Stage::kEmission, n);
   }
 
-  if (features_.active() && !material_traits(bin.bin.material).see_through) {
-    features_.record_surfaces(batch_.surfaces.columns(), batch_.chunk_paths.columns(),
-                              batch_.sums.columns(), n);
-    features_.turn_indirect(batch_.chunk_paths.columns(), n);
+  if (bin.splits) {
+    clock_.enter(Stage::kDraw, n);
+    draw(Dimension::kChild, rows.paths, batch_.child_u.data(), nullptr, n);
+    count(Stage::kDraw, n);
+    shade_split(bin, rows, batch_.child_u.data(), 0);
+  } else {
+    shade_rows(bin, rows);
   }
+}
 
-  // Columns that this bin does not draw are not there.
+void Worker::shade_rows(const ShadePlan& plan, const ChunkRows& rows) {
+  const uint32_t n = rows.n;
+  if (features_.active() && !material_traits(plan.material).see_through) {
+    features_.record_surfaces(rows.surfaces, rows.paths, batch_.sums.columns(), n);
+    features_.turn_indirect(rows.paths.depth, rows.slots, n);
+  }
+  const Randoms<Column>& randoms = batch_.randoms.columns();
+  // Columns that this material does not draw are not there.
   Randoms<ConstColumn> drawn{};
   clock_.enter(Stage::kDraw, n);
-  if (bin.sample_lights) {
-    draw(Dimension::kLight, randoms.light_u, randoms.light_v, n);
+  if (plan.sample_lights) {
+    draw(Dimension::kLight, rows.paths, randoms.light_u, randoms.light_v, n);
     drawn.light_u = randoms.light_u;
     drawn.light_v = randoms.light_v;
   }
-  if (bin.draw_choice || bin.draw_lobe)
-    draw(Dimension::kChoice, randoms.light_choice, bin.draw_lobe ? randoms.lobe : nullptr, n);
-  if (bin.draw_choice) drawn.light_choice = randoms.light_choice;
-  if (bin.draw_lobe) drawn.lobe = randoms.lobe;
-  if (bin.draw_direction) {
-    draw(Dimension::kBsdf, randoms.bsdf_u, randoms.bsdf_v, n);
+  if (plan.draw_choice || plan.draw_lobe)
+    draw(Dimension::kChoice, rows.paths, randoms.light_choice,
+         plan.draw_lobe ? randoms.lobe : nullptr, n);
+  if (plan.draw_choice) drawn.light_choice = randoms.light_choice;
+  if (plan.draw_lobe) drawn.lobe = randoms.lobe;
+  if (plan.draw_direction) {
+    draw(Dimension::kBsdf, rows.paths, randoms.bsdf_u, randoms.bsdf_v, n);
     drawn.bsdf_u = randoms.bsdf_u;
     drawn.bsdf_v = randoms.bsdf_v;
   }
-  if (bin.draw_roulette) {
-    draw(Dimension::kRoulette, randoms.roulette, nullptr, n);
+  if (plan.draw_roulette) {
+    draw(Dimension::kRoulette, rows.paths, randoms.roulette, nullptr, n);
     drawn.roulette = randoms.roulette;
   }
   count(Stage::kDraw, n);
 
   LightSample<ConstColumn> lights{};
-  if (bin.sample_lights) {
+  if (plan.sample_lights) {
     clock_.enter(Stage::kLightSample, n);
-    kernels_.sample_lights[plan_.light_kernel](view_, surfaces, drawn, batch_.lights.columns(), n);
+    kernels_.sample_lights[plan_.light_kernel](view_, rows.surfaces, drawn, batch_.lights.columns(),
+                                               n);
     lights = batch_.lights.view();
     count(Stage::kLightSample, n);
   }
 
   clock_.enter(Stage::kShade, n);
-  const uint32_t material = uint32_t(bin.bin.material);
+  const uint32_t material = uint32_t(plan.material);
   const uint32_t first_path = out_.path_count;
-  kernels_.shade[material]({surfaces, paths, drawn, lights, view_.parameters[material], tangents},
-                           plan_.transport, out_, counted_.drops, n);
+  kernels_.shade[material](
+      {rows.surfaces, rows.paths, drawn, lights, view_.parameters[material], rows.tangents},
+      plan_.transport, out_, counted_.drops, n);
   if (features_.active())
     features_.record_albedo(out_.paths, batch_.sums.columns(), first_path, out_.path_count);
   count(Stage::kShade, n);
+}
+
+void Worker::shade_split(const ShadePlan& plan, const ChunkRows& rows, const float* u,
+                         uint32_t level) {
+  clock_.enter(Stage::kSort, rows.n);
+  SplitRows& split = batch_.splits[level];
+  const uint32_t material = uint32_t(plan.material);
+  kernels_.split[material](view_.parameters[material], rows.surfaces, false, split.share.data(),
+                           split.parameter[0].data(), split.parameter[1].data(), rows.n);
+  kernels_.choose_child(split.share.data(), u, split.child.data(), split.left.data(), rows.n);
+  uint32_t taken[2] = {};
+  for (uint32_t i = 0; i < rows.n; ++i) {
+    const uint32_t c = split.child[i];
+    split.order[c][taken[c]++] = i;
+  }
+  count(Stage::kSort, rows.n);
+  for (uint32_t c = 0; c < 2; ++c) {
+    if (!taken[c]) continue;
+    clock_.enter(Stage::kSort, taken[c]);
+    Surface<ConstColumn> surfaces = rows.surfaces;
+    surfaces.parameter = split.parameter[c].data();
+    kernels_.take_rows(surfaces, rows.paths, split.left.data(), split.order[c].data(),
+                       plan.turned[c], split.surfaces.columns(), split.paths.columns(),
+                       split.u.data(), taken[c]);
+    const ShadePlan& child = plan_.children[plan.child[c]];
+    ChunkRows own{
+        split.surfaces.view(), split.paths.view(), {}, split.paths.columns().slot, taken[c]};
+    if (rows.tangents.x) {
+      const Tangent<Column>& to = split.tangents.columns();
+      for (uint32_t i = 0; i < taken[c]; ++i) {
+        const uint32_t from = split.order[c][i];
+        to.x[i] = rows.tangents.x[from];
+        to.y[i] = rows.tangents.y[from];
+        to.z[i] = rows.tangents.z[from];
+      }
+      own.tangents = split.tangents.view();
+    }
+    if (child.splits)
+      shade_split(child, own, split.u.data(), level + 1);
+    else
+      shade_rows(child, own);
+  }
 }
 
 void Worker::shadow() {
@@ -276,6 +331,7 @@ void Worker::shadow() {
     lanes.steps += inside.steps;
   }
   count(Stage::kIntersectShadow, n, lanes);
+  if (plan_.veils) walk_veils(n);
 }
 
 void Worker::accumulate() {
@@ -283,7 +339,7 @@ void Worker::accumulate() {
   // all of them go to the film after it has been added.
   const uint32_t ended = bin_begin_[1];
   clock_.enter(Stage::kAccumulate, out_.shadow_count);
-  if (out_.shadow_count)
+  if (out_.shadow_count && !plan_.veils)
     kernels_.add_unoccluded(batch_.shadow.view(), batch_.occluded.data(), batch_.sums.columns(),
                             out_.shadow_count);
   const uint32_t* slot = batch_.paths[current_].columns().slot;

@@ -84,9 +84,30 @@ class Worker {
   void sort();
   void environment();
   void shade();
+  /// Dense rows of one material.
+  struct ChunkRows {
+    Surface<ConstColumn> surfaces;
+    PathState<ConstColumn> paths;
+    Tangent<ConstColumn> tangents;  ///< null columns where no material needs them
+    uint32_t* slots;                ///< those of `paths`, to be changed
+    uint32_t n;
+  };
   void shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end);
-  void draw(Dimension dimension, float* first, float* second, uint32_t n);
+  void shade_rows(const ShadePlan& plan, const ChunkRows& rows);
+  /// u: per row, decides between the children.
+  void shade_split(const ShadePlan& plan, const ChunkRows& rows, const float* u, uint32_t level);
+  void draw(Dimension dimension, const PathState<ConstColumn>& paths, float* first, float* second,
+            uint32_t n);
   void shadow();
+  // veils.cpp
+  /// Adds what reaches its light of the shadow rays that are free so far.
+  void walk_veils(uint32_t shadow_rays);
+  void intersect_veils(uint32_t side, uint32_t n);
+  uint32_t pass_veil(const BinPlan& bin, uint32_t side, uint32_t begin, uint32_t end,
+                     uint32_t count);
+  /// Adds to VeilRows::r, g, b what surfaces of this material let pass of `weight`.
+  void add_passing(const ShadePlan& plan, const Surface<ConstColumn>& surfaces, bool turned,
+                   const float* weight, uint32_t n, uint32_t level);
   void accumulate();
   /// row: of SampleSum, of a path that has ended.
   void flush(uint32_t row);

@@ -26,6 +26,10 @@ template <class A>
 struct Null : Delta<A> {
   using Parameters = NullParameters<Lanes<A>::template Of>;
 
+  static YAT_INLINE Spectrum<A> transmittance(const Parameters&, const BsdfView<A>&) {
+    const Float<A> one(1.f);
+    return {one, one, one};
+  }
   static YAT_INLINE BsdfSample<A> sample(const Parameters&, const BsdfView<A>& view,
                                          const Float<A>&, const Float<A>&, const Float<A>&) {
     const Float<A> one(1.f);

@@ -1,0 +1,38 @@
+#pragma once
+// Two materials in one surface (lxs 7.2): (1 - amount) of the first, amount of the second.
+
+#include "kernels/material.h"
+#include "soa/fields.h"
+
+namespace yat {
+
+template <template <class> class Of>
+struct MixParameters {
+  Of<float> amount;            ///< share of the second material, clamped to 0..1
+  Of<uint32_t> first, second;  ///< rows of the children's own tables
+  YAT_FIELDS(amount, first, second)
+};
+static_assert(all_fields_listed<MixParameters>);
+
+inline constexpr MaterialTraits kMixTraits{.name = "mix",
+                                           .delta = false,
+                                           .see_through = false,
+                                           .needs_lobe = false,
+                                           .needs_direction = false,
+                                           .splits = true};
+
+#if defined(YAT_ISA)
+namespace YAT_ISA {
+
+template <class A>
+struct Mix {
+  using Parameters = MixParameters<Lanes<A>::template Of>;
+  static YAT_INLINE Float<A> share(const Parameters& p, const Mask<A>&) {
+    return xsimd::min(xsimd::max(p.amount, Float<A>(0.f)), Float<A>(1.f));
+  }
+};
+
+}  // namespace YAT_ISA
+#endif
+
+}  // namespace yat
