@@ -1,9 +1,12 @@
 // Camera rays, random numbers, intersection, classification, shadow rays.
 
+#include <fmt/format.h>
+
 #include <cstring>
 
 #include "kernel_bench.h"
 #include "kernel_inputs.h"
+#include "wavefront/plan.h"
 
 namespace yat::bench {
 
@@ -28,12 +31,9 @@ Table<ShadowRay> with_share(const Table<ShadowRay>& rays, uint32_t n, uint32_t s
 
 namespace {
 
-constexpr const char* kSamplerNames[] = {"independent", "sobol"};
-static_assert(std::size(kSamplerNames) == uint32_t(SamplerKind::kCount));
-
 void add_draw(const KernelTable& table) {
   for (uint32_t sampler = 0; sampler < uint32_t(SamplerKind::kCount); ++sampler) {
-    const std::string name = std::string("draw/") + kSamplerNames[sampler];
+    const std::string name = fmt::format("draw/{}", sampler_kind_name(SamplerKind(sampler)));
     const auto kernel = table.draw[sampler];
     if (!kernel) {
       add_missing(name, table);
@@ -53,10 +53,11 @@ void add_draw(const KernelTable& table) {
 }
 
 void add_camera(const KernelTable& table) {
-  for (const int lens : {0, 1}) {
+  for (const CameraKind kind : {CameraKind::kPinhole, CameraKind::kThinLens}) {
+    const bool lens = has_lens(kind);
     const std::string name =
         lens ? "generate_camera_rays/thin_lens" : "generate_camera_rays/pinhole";
-    const auto kernel = table.generate_camera_rays[lens];
+    const auto kernel = table.generate_camera_rays[uint32_t(kind)];
     if (!kernel) {
       add_missing(name, table);
       continue;

@@ -83,11 +83,12 @@ class Recorder {
                                              camera.view().sample, nullptr, u, v, count_);
     };
     draw_camera(Dimension::kFilm, film_u.data(), film_v.data());
-    if (plan_.thin_lens) draw_camera(Dimension::kLens, lens_u.data(), lens_v.data());
-    kernels_.generate_camera_rays[plan_.thin_lens](
+    if (has_lens(plan_.camera)) draw_camera(Dimension::kLens, lens_u.data(), lens_v.data());
+    kernels_.generate_camera_rays[uint32_t(plan_.camera)](
         view_, camera.view(), film_u.data(), film_v.data(),
-        plan_.thin_lens ? lens_u.data() : nullptr, plan_.thin_lens ? lens_v.data() : nullptr,
-        rays_.columns(), paths_.columns(), count_);
+        has_lens(plan_.camera) ? lens_u.data() : nullptr,
+        has_lens(plan_.camera) ? lens_v.data() : nullptr, rays_.columns(), paths_.columns(),
+        count_);
   }
 
   RaySet set_of(std::string name) const {

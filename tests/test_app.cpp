@@ -41,8 +41,9 @@ TEST(Options, DefaultsLeaveTheSceneItsSay) {
   EXPECT_FALSE(line.arguments.crop);
   EXPECT_FALSE(line.arguments.tone_map);
   EXPECT_EQ(line.arguments.tree, TreeChoice::kFromScene);
-  EXPECT_EQ(line.arguments.sampler, SamplerKind::kSobol);
-  EXPECT_EQ(line.arguments.colour, ColourMode::kBands);
+  EXPECT_FALSE(line.arguments.sampler);
+  EXPECT_FALSE(line.arguments.colour);
+  EXPECT_EQ(line.arguments.dialect, Dialect::kLuxRender);
   EXPECT_EQ(line.arguments.threads, 0u);
   EXPECT_EQ(line.arguments.progress, ProgressKind::kAuto);
   EXPECT_EQ(line.arguments.verbosity, Verbosity::kNormal);
@@ -100,7 +101,7 @@ TEST(Options, MistakesNameTheOptionAndTheWayOut) {
   EXPECT_EQ(
       usage_error({"render", "a.lxs", "--tonemap", "reinhart"}),
       "--tonemap reinhart: unknown (did you mean \"reinhard\"?); choose from linear, reinhard, "
-      "autolinear, maxwhite, contrast");
+      "autolinear, maxwhite, contrast, outofgamut, yart-linear, yart-reinhard");
   EXPECT_EQ(usage_error({"render", "a.lxs", "--time", "0"}),
             "--time 0: no time to render; give seconds above 0");
   EXPECT_EQ(usage_error({"render", "a.lxs", "--samples-range", "4,4"}),
@@ -303,7 +304,7 @@ TEST(Report, ReplayCropsToTheVeryPixel) {
       EXPECT_EQ(std::ceil(float(width) * x0), float(x)) << command;
       EXPECT_EQ(std::ceil(float(width) * x1), float(x + 1)) << command;
       EXPECT_NE(command.find("--samples-range 3,4"), std::string::npos);
-      EXPECT_NE(command.find("--colour bands --seed 7"), std::string::npos);
+      EXPECT_NE(command.find("--compat luxrender --colour bands --seed 7"), std::string::npos);
     }
 }
 

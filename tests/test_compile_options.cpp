@@ -101,7 +101,7 @@ TEST_F(CompileOptionsTest, DepthsAndLensFollowTheCamerasScale) {
   // A camera space twice as fine as the world: 8 camera units are 4 m.
   description.world_to_camera = glm::scale(Matrix(1.), glm::dvec3(2.));
   const Scene scene = compile();
-  EXPECT_TRUE(scene.thin_lens);
+  EXPECT_EQ(scene.camera_kind, CameraKind::kThinLens);
   EXPECT_FLOAT_EQ(scene.camera.focal_distance, 4);
   EXPECT_FLOAT_EQ(scene.camera.near_depth, 1);
   EXPECT_FLOAT_EQ(scene.camera.far_depth, 50);

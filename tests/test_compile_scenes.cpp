@@ -72,7 +72,7 @@ TEST_F(CompileScenes, TheOtherBundledScenesSayNothing) {
   EXPECT_EQ(scene.light_kinds, 1u << uint32_t(LightKind::kDistant));
   EXPECT_EQ(scene.triangles.size(), 36u);
   EXPECT_EQ(scene.spheres.size(), 3u);
-  EXPECT_TRUE(scene.thin_lens);
+  EXPECT_EQ(scene.camera_kind, CameraKind::kThinLens);
   scene = bundled("furnace");
   EXPECT_EQ(scene.lights.size(), 12u);
   for (uint32_t i = 0; i < 12; ++i) {

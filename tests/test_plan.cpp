@@ -22,7 +22,7 @@ TEST(Plan, SkipsWhatTheSceneDoesNotHold) {
       compile_text(pinhole_room("LightSource \"point\" \"color L\" [1 1 1]\n"), kernels);
   const Plan plan = make_plan(scene, kernels, {});
   EXPECT_TRUE(plan.triangles);
-  EXPECT_FALSE(plan.spheres || plan.planes || plan.thin_lens || plan.shadow_mask);
+  EXPECT_FALSE(plan.spheres || plan.planes || has_lens(plan.camera) || plan.shadow_mask);
   EXPECT_EQ(plan.light_kernel, uint32_t(LightKind::kPoint));
   EXPECT_EQ(plan.first_lasting_bin, 2u);
   ASSERT_EQ(plan.bins.size(), 2u);
@@ -43,8 +43,8 @@ TEST(Plan, RunsWhatTheSceneHolds) {
   const KernelTable& kernels = select_kernels();
   const Scene scene = compile_text(everything_text(8, 8), kernels);
   const Plan plan = make_plan(scene, kernels, {});
-  EXPECT_TRUE(plan.triangles && plan.spheres && plan.planes && plan.thin_lens && plan.shadow_mask &&
-              plan.lights);
+  EXPECT_TRUE(plan.triangles && plan.spheres && plan.planes && has_lens(plan.camera) &&
+              plan.shadow_mask && plan.lights);
   EXPECT_EQ(plan.light_kernel, kPlainLights);
   uint32_t delta = 0, lobes = 0;
   for (uint32_t b = 1; b < plan.bins.size(); ++b) {

@@ -56,6 +56,28 @@ std::string light_counts(const Scene& scene) {
   return text.empty() ? "none" : text;
 }
 
+std::string camera_words(const Scene& scene) {
+  switch (scene.camera_kind) {
+    case CameraKind::kPinhole:
+      return "pinhole";
+    case CameraKind::kThinLens:
+      return fmt::format("thin lens, focus at {:.6g} m", scene.camera.focal_distance);
+    case CameraKind::kPolygonLens:
+      return fmt::format("lens of {} blades, focus at {:.6g} m", scene.camera.blades,
+                         scene.camera.focal_distance);
+    case CameraKind::kOrthographic:
+      return "orthographic";
+    case CameraKind::kEnvironment:
+      return "environment";
+    case CameraKind::kFisheye:
+      return fmt::format("fisheye, {:.6g} degrees to each side",
+                         360 * double(scene.camera.half_angle));
+    case CameraKind::kCount:
+      break;
+  }
+  return "";
+}
+
 std::string holds(const Description& description, const Scene& scene) {
   const FilmSettings& film = scene.film;
   const CameraView& camera = scene.camera;
@@ -85,11 +107,9 @@ std::string holds(const Description& description, const Scene& scene) {
   text += fmt::format("  lights     {}\n", light_counts(scene));
   text += fmt::format(
       "  camera     {}, at {:.6g} {:.6g} {:.6g}, looking along {:.4f} {:.4f} {:.4f}\n",
-      scene.thin_lens ? fmt::format("thin lens, focus at {:.6g} m", camera.focal_distance)
-                      : std::string("pinhole"),
-      scene.center.x + double(camera.origin[0]), scene.center.y + double(camera.origin[1]),
-      scene.center.z + double(camera.origin[2]), camera.forward[0], camera.forward[1],
-      camera.forward[2]);
+      camera_words(scene), scene.center.x + double(camera.origin[0]),
+      scene.center.y + double(camera.origin[1]), scene.center.z + double(camera.origin[2]),
+      camera.forward[0], camera.forward[1], camera.forward[2]);
   text +=
       fmt::format("  film       {}x{}, crop x {}..{} y {}..{}, \"{}\", tone map {}, gamma {:.3g}\n",
                   film.width, film.height, film.crop_x0, film.crop_x1, film.crop_y0, film.crop_y1,

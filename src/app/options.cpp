@@ -11,6 +11,7 @@
 
 #include "app/build_info.h"
 #include "base/error.h"
+#include "kernels/strata.h"
 
 namespace yat {
 
@@ -33,8 +34,14 @@ constexpr OptionText kRenderOptions[] = {
      "path: all light; direct: direct light, mirrors and glass"},
     {"--max-depth", "N", "the scene's",
      "vertices after which a path ends; 0 sees light sources only"},
-    {"--sampler", "sobol|independent", "sobol", "where random numbers come from"},
-    {"--colour", "bands|rgb", "bands",
+    {"--sampler", "NAME", "the scene's",
+     "where random numbers come from: sobol, independent, regular, jittered, nrooks, multijittered "
+     "or cmj"},
+    {"--sample-set", "N", "all samples of a pixel",
+     "samples that the samplers regular to cmj spread over a pixel together"},
+    {"--compat", "luxrender|yart", "luxrender",
+     "whose rules the scene follows: LuxRender's, or those of YART"},
+    {"--colour", "bands|rgb", "bands; with --compat yart rgb",
      "how colours multiply: bands: as LuxRender's spectra do; rgb: channel by channel"},
     {"--seed", "N", "0", "another seed gives another, independent picture"},
     {"--resolution", "WxH", "the film's", "size of the full picture in pixels"},
@@ -46,7 +53,8 @@ constexpr OptionText kRenderOptions[] = {
      "tree over the triangles; auto: the fastest for them, kd: a strict kd-tree; the picture is "
      "the same"},
     {"--tonemap", "NAME", "the film's",
-     "linear, reinhard, autolinear, maxwhite or contrast; for .png and .jpg"},
+     "linear, reinhard, autolinear, maxwhite, contrast, outofgamut, yart-linear or yart-reinhard; "
+     "for .png and .jpg"},
     {"--exposure", "STOPS", "0", "brighten .png and .jpg by 2^STOPS before tone mapping"},
     {"--aov", "LIST", "none",
      "feature pictures into the .exr, comma-separated: albedo, normal, geometric_normal, depth, "
@@ -61,10 +69,12 @@ constexpr OptionText kRenderOptions[] = {
 };
 
 constexpr OptionText kInfoOptions[] = {
+    {"--compat", "luxrender|yart", "luxrender",
+     "whose rules the scene follows: LuxRender's, or those of YART"},
     {"--threads", "N", "one per processor", "worker threads for building the tree"},
     {"--integrator", "path|direct", "the scene's", "plan for this integrator"},
     {"--max-depth", "N", "the scene's", "plan for this depth"},
-    {"--sampler", "sobol|independent", "sobol", "plan for this sampler"},
+    {"--sampler", "NAME", "the scene's", "plan for this sampler"},
     {"--resolution", "WxH", "the film's", "size of the full picture in pixels"},
     {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
     {"--instances", "auto|copy|share", "auto",
@@ -80,8 +90,16 @@ constexpr OptionText kInfoOptions[] = {
 
 constexpr std::array<std::pair<std::string_view, Integrator>, 2> kIntegrators = {
     {{"path", Integrator::kPath}, {"direct", Integrator::kDirect}}};
-constexpr std::array<std::pair<std::string_view, SamplerKind>, 2> kSamplers = {
-    {{"sobol", SamplerKind::kSobol}, {"independent", SamplerKind::kIndependent}}};
+constexpr std::array<std::pair<std::string_view, SamplerKind>, 7> kSamplers = {
+    {{"sobol", SamplerKind::kSobol},
+     {"independent", SamplerKind::kIndependent},
+     {"regular", SamplerKind::kRegular},
+     {"jittered", SamplerKind::kJittered},
+     {"nrooks", SamplerKind::kNRooks},
+     {"multijittered", SamplerKind::kMultiJittered},
+     {"cmj", SamplerKind::kCorrelatedMultiJittered}}};
+constexpr std::array<std::pair<std::string_view, Dialect>, 2> kDialects = {
+    {{"luxrender", Dialect::kLuxRender}, {"yart", Dialect::kYart}}};
 constexpr std::array<std::pair<std::string_view, TreeChoice>, 2> kTrees = {
     {{"auto", TreeChoice::kAuto}, {"kd", TreeChoice::kKd}}};
 constexpr std::array<std::pair<std::string_view, ColourMode>, 2> kColourModes = {
@@ -90,12 +108,15 @@ constexpr std::array<std::pair<std::string_view, InstanceMode>, 3> kInstanceMode
     {{"auto", InstanceMode::kAuto},
      {"copy", InstanceMode::kCopy},
      {"share", InstanceMode::kShare}}};
-constexpr std::array<std::pair<std::string_view, ToneMap>, 5> kToneMaps = {
+constexpr std::array<std::pair<std::string_view, ToneMap>, 8> kToneMaps = {
     {{"linear", ToneMap::kLinear},
      {"reinhard", ToneMap::kReinhard},
      {"autolinear", ToneMap::kAutoLinear},
      {"maxwhite", ToneMap::kMaxWhite},
-     {"contrast", ToneMap::kContrast}}};
+     {"contrast", ToneMap::kContrast},
+     {"outofgamut", ToneMap::kOutOfGamut},
+     {"yart-linear", ToneMap::kYartLinear},
+     {"yart-reinhard", ToneMap::kYartReinhard}}};
 constexpr std::array<std::pair<std::string_view, ProgressKind>, 5> kProgressKinds = {
     {{"auto", ProgressKind::kAuto},
      {"bar", ProgressKind::kBar},
@@ -155,8 +176,8 @@ std::array<T, N> numbers(std::string_view option, std::string_view text, char se
 
 /// Text of every option as given; read into Arguments once all are known.
 struct Given {
-  std::string spp, samples_range, time, threads, integrator, max_depth, sampler, colour, seed,
-      resolution, crop, instances, tree, tone_map, exposure, aov, progress;
+  std::string spp, samples_range, time, threads, integrator, max_depth, sampler, sample_set, compat,
+      colour, seed, resolution, crop, instances, tree, tone_map, exposure, aov, progress;
   bool verbose = false, quiet = false;
 };
 
@@ -188,6 +209,7 @@ class Adder {
 };
 
 void add_shared(Adder& add, Arguments& arguments, Given& given) {
+  add("--compat", given.compat);
   add("--threads", given.threads);
   add("--integrator", given.integrator);
   add("--max-depth", given.max_depth);
@@ -205,6 +227,7 @@ void add_render(Adder& add, Arguments& arguments, Given& given) {
   add_shared(add, arguments, given);
   add("--output", arguments.outputs);
   add("--spp", given.spp);
+  add("--sample-set", given.sample_set);
   add("--samples-range", given.samples_range);
   add("--time", given.time);
   add("--colour", given.colour);
@@ -243,6 +266,10 @@ void read_given(const Given& given, Arguments& to) {
   if (!given.max_depth.empty())
     to.max_depth = number<uint32_t>("--max-depth", given.max_depth, given.max_depth, 0, 65535);
   if (!given.sampler.empty()) to.sampler = by_name("--sampler", given.sampler, kSamplers);
+  if (!given.sample_set.empty())
+    to.sample_set =
+        number<uint32_t>("--sample-set", given.sample_set, given.sample_set, 1, kLargestSet);
+  if (!given.compat.empty()) to.dialect = by_name("--compat", given.compat, kDialects);
   if (!given.colour.empty()) to.colour = by_name("--colour", given.colour, kColourModes);
   if (!given.seed.empty())
     to.seed =
@@ -300,6 +327,9 @@ std::string general_help() {
   return "Usage: yat render SCENE [OPTION...]   render a LuxRender scene (.lxs) to pictures\n"
          "       yat info SCENE [OPTION...]     say what the scene holds and how it would be "
          "rendered\n"
+         "       yat -i SCENE [-o FILE] ...     the same by YART's rules and flags (yat -i -h "
+         "lists "
+         "them)\n"
          "       yat --version\n"
          "\n"
          "`yat render --help` and `yat info --help` list the options with their defaults.\n"
@@ -372,12 +402,25 @@ std::string_view sampler_name(SamplerKind sampler) {
 std::string_view colour_name(ColourMode colour) {
   return name_of(colour, kColourModes);
 }
+std::string_view dialect_name(Dialect dialect) {
+  return name_of(dialect, kDialects);
+}
 std::string_view tone_map_name(ToneMap tone_map) {
   return name_of(tone_map, kToneMaps);
 }
 
 CommandLine parse_command_line(int argc, const char* const* argv) {
   CommandLine line;
+  if (is_yart_command_line(argc, argv)) {
+    const auto asks_help = [](std::string_view a) { return a == "-h" || a == "--help"; };
+    if (std::any_of(argv + 1, argv + argc, asks_help)) {
+      line.text = yart_help();
+      return line;
+    }
+    line.command = Command::kYart;
+    line.yart = parse_yart_command_line(argc, argv);
+    return line;
+  }
   Given given;
   CLI::App app("yat");
   app.set_help_flag("-h,--help");

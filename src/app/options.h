@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/yart_options.h"
 #include "film/features.h"
 #include "film/settings.h"
 #include "scene/colour_model.h"
@@ -49,8 +50,10 @@ struct Arguments {
   uint32_t threads = 0;              ///< 0: one per processor
   std::optional<Integrator> integrator;
   std::optional<uint32_t> max_depth;
-  SamplerKind sampler = SamplerKind::kSobol;
-  ColourMode colour = ColourMode::kBands;
+  std::optional<SamplerKind> sampler;
+  std::optional<uint32_t> sample_set;
+  std::optional<ColourMode> colour;  ///< empty: as the dialect says
+  Dialect dialect = Dialect::kLuxRender;
   uint32_t seed = 0;
   uint32_t width = 0, height = 0;            ///< 0: as the film says [pixels]
   std::optional<std::array<float, 4>> crop;  ///< fractions x0 x1 y0 y1
@@ -65,21 +68,24 @@ struct Arguments {
   Verbosity verbosity = Verbosity::kNormal;
 };
 
-enum class Command { kRender, kInfo, kHelp };
+enum class Command { kRender, kInfo, kYart, kHelp };
 
 struct CommandLine {
   Command command = Command::kHelp;
   Arguments arguments;
+  YartArguments yart;
   std::string text;  ///< kHelp: what --help or --version prints
 };
 
-/// Reads the command line. Throws UsageError with a message that names the option.
+/// Reads the command line. Throws UsageError with a message that names the option; for YART's
+/// command line see parse_yart_command_line().
 CommandLine parse_command_line(int argc, const char* const* argv);
 
 /// Names as on the command line.
 std::string_view integrator_name(Integrator integrator);
 std::string_view sampler_name(SamplerKind sampler);
 std::string_view colour_name(ColourMode colour);
+std::string_view dialect_name(Dialect dialect);
 std::string_view tone_map_name(ToneMap tone_map);
 
 }  // namespace yat

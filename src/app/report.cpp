@@ -6,6 +6,7 @@
 
 #include "app/build_info.h"
 #include "app/machine.h"
+#include "kernels/strata.h"
 
 namespace yat {
 
@@ -135,12 +136,15 @@ std::vector<std::string> replay_commands(const RenderReport& report) {
     const double width = report.film.width, height = report.film.height;
     commands.push_back(fmt::format(
         "yat render {} --resolution {}x{} --crop {:.9g},{:.9g},{:.9g},{:.9g} --samples-range {},{} "
-        "--integrator {} --max-depth {} --sampler {} --colour {} --seed {} --isa {}",
+        "--integrator {} --max-depth {} --sampler {}{} --compat {} --colour {} --seed {} --isa {}",
         report.scene, report.film.width, report.film.height, std::max(0., (x - .5) / width),
         std::min(1., (x + .5) / width), std::max(0., (y - .5) / height),
         std::min(1., (y + .5) / height), drops.entry[i].sample, drops.entry[i].sample + 1,
         integrator_name(report.integrator), report.transport.max_depth,
-        sampler_name(report.sampler), colour_name(report.colour), report.transport.seed,
+        sampler_name(report.sampler),
+        is_stratified(report.sampler) ? fmt::format(" --sample-set {}", report.sample_set)
+                                      : std::string(),
+        dialect_name(report.dialect), colour_name(report.colour), report.transport.seed,
         report.isa));
   }
   return commands;

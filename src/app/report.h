@@ -22,7 +22,9 @@ struct RenderReport {
   FilmSettings film;
   Integrator integrator = Integrator::kPath;
   SamplerKind sampler = SamplerKind::kSobol;
+  uint32_t sample_set = 64;  ///< of stratified samplers
   ColourMode colour = ColourMode::kBands;
+  Dialect dialect = Dialect::kLuxRender;
   TransportOptions transport;
   std::string isa;
   uint32_t lanes = 0, threads = 0;

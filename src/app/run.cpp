@@ -2,12 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <bit>
-#include <cerrno>
-#include <chrono>
 #include <csignal>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <new>
 #include <optional>
@@ -16,111 +11,17 @@
 #include "app/console.h"
 #include "app/info.h"
 #include "app/interrupt.h"
-#include "app/machine.h"
+#include "app/load.h"
 #include "app/passes.h"
 #include "app/report.h"
+#include "app/yart_run.h"
 #include "base/whole_file.h"
 #include "film/output.h"
 #include "kernels/dispatch.h"
-#include "scene/parse.h"
-#include "wavefront/plan.h"
 
 namespace yat {
 
 namespace {
-
-class Stopwatch {
- public:
-  /// Seconds since the last call, or since the beginning.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-Diagnostics::Sink sink_for(Console& console, Verbosity verbosity) {
-  return [&console, verbosity](Severity severity, std::string_view line) {
-    const bool wanted = severity == Severity::kError ||
-                        (severity == Severity::kWarning && verbosity != Verbosity::kQuiet) ||
-                        verbosity == Verbosity::kVerbose;
-    if (wanted) console.line(line);
-  };
-}
-
-/// A scene made ready to render, with what it was made from.
-struct Loaded {
-  Description description;
-  Scene scene;
-  Plan plan;
-  Integrator integrator = Integrator::kPath;
-  PhaseTimes time;
-};
-
-/// The description in `loaded` as columns and plan, with what the command line says otherwise.
-void compile(const Arguments& arguments, const KernelTable& kernels, ThreadPool& pool,
-             Diagnostics& diagnostics, Loaded& loaded) {
-  CompileOptions options;
-  options.block_width = kernels.lanes;
-  options.tree = arguments.tree;
-  options.width = arguments.width;
-  options.height = arguments.height;
-  options.colour = arguments.colour;
-  if (arguments.crop) {
-    for (size_t i = 0; i < 4; ++i) options.crop[i] = (*arguments.crop)[i];
-    options.crop_given = true;
-  }
-  options.instances = arguments.instances;
-  loaded.scene = compile_scene(loaded.description, options, pool, diagnostics);
-  if (arguments.tone_map) loaded.scene.film.tone_map = *arguments.tone_map;
-  loaded.scene.film.exposure_stops = arguments.exposure_stops;
-
-  PlanOptions plan;
-  loaded.integrator = arguments.integrator.value_or(loaded.scene.direct_only ? Integrator::kDirect
-                                                                             : Integrator::kPath);
-  plan.integrator = loaded.integrator;
-  plan.sampler = arguments.sampler;
-  plan.max_depth = arguments.max_depth.value_or(uint32_t(std::max(0, loaded.scene.max_depth)));
-  plan.seed = arguments.seed;
-  loaded.plan = make_plan(loaded.scene, kernels, plan);
-}
-
-void load(const Arguments& arguments, const KernelTable& kernels, ThreadPool& pool,
-          Diagnostics& diagnostics, Loaded& loaded) {
-  Stopwatch watch;
-  loaded.description = read_scene(arguments.scene, diagnostics);
-  loaded.time.read = watch.lap();
-  compile(arguments, kernels, pool, diagnostics, loaded);
-  loaded.time.build = watch.lap();
-}
-
-/// Text for standard output, which may be a full disk or a pipe that nobody reads any more.
-void print(std::string_view text) {
-  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (!written || std::fflush(stdout) != 0)
-    throw ResourceError(
-        fmt::format("error: standard output: cannot write: {}", std::strerror(errno)));
-}
-
-/// Asks before the memory is touched: a system that lends more than it has would end the program
-/// in the middle of the work.
-void require_film_memory(const FilmSettings& film, FeatureSet features) {
-  // Sums, the mean picture, its tone mapped copy and its bytes in a file.
-  const uint64_t pixels = uint64_t(film.crop_width()) * film.crop_height();
-  const uint64_t pictures = 1 + uint64_t(std::popcount(features));
-  const uint64_t needed = pixels * (pictures * (sizeof(FilmPixel) + 12 + 12) + 12);
-  const uint64_t there = available_memory_bytes();
-  if (there && needed > there)
-    throw ResourceError(fmt::format(
-        "error: out of memory: a picture of {} x {} pixels needs {:.1f} GB, {:.1f} GB are free: "
-        "use "
-        "a smaller --resolution or a --crop",
-        film.crop_width(), film.crop_height(), double(needed) * 1e-9, double(there) * 1e-9));
-}
 
 /// Checks before the work what would only fail after it.
 void check_outputs(const Arguments& arguments) {
@@ -160,7 +61,9 @@ RenderReport report_of(const Arguments& arguments, const Loaded& loaded, const T
   report.film = loaded.scene.film;
   report.integrator = loaded.integrator;
   report.sampler = loaded.plan.sampler;
-  report.colour = arguments.colour;
+  report.sample_set = loaded.plan.set_columns * loaded.plan.set_rows;
+  report.colour = colour_mode(arguments);
+  report.dialect = arguments.dialect;
   report.transport = loaded.plan.transport;
   report.isa = loaded.plan.kernels->isa;
   report.lanes = loaded.plan.kernels->lanes;
@@ -195,7 +98,7 @@ ExitCode render_command(const Arguments& arguments, Console& console) {
   ThreadPool pool(arguments.threads);
   Diagnostics diagnostics(sink_for(console, arguments.verbosity));
   Loaded loaded;
-  load(arguments, kernels, pool, diagnostics, loaded);
+  load(arguments, kernels, pool, console, diagnostics, loaded);
   diagnostics.flush_repeats();
 
   RenderReport report = report_of(arguments, loaded, pool);
@@ -253,7 +156,7 @@ ExitCode info_command(const Arguments& arguments, Console& console) {
   ThreadPool pool(arguments.threads);
   Diagnostics diagnostics(sink_for(console, arguments.verbosity));
   Loaded loaded;
-  load(arguments, kernels, pool, diagnostics, loaded);
+  load(arguments, kernels, pool, console, diagnostics, loaded);
   diagnostics.flush_repeats();
   print(info_text(loaded.description, loaded.scene, loaded.plan));
   return ExitCode::kDone;
@@ -277,6 +180,8 @@ ExitCode run(int argc, const char* const* argv) {
         return info_command(line.arguments, console);
       case Command::kRender:
         return render_command(line.arguments, console);
+      case Command::kYart:
+        return yart_command(line.yart, console);
     }
   } catch (const UsageError& error) {
     console.line(fmt::format("yat: {}", error.what()));

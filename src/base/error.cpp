@@ -104,6 +104,12 @@ std::string quote(std::string_view text) {
   return out + "\"";
 }
 
+bool same_but_case(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return lower(x) == lower(y); });
+}
+
 std::string_view nearest_name(std::string_view name,
                               const std::vector<std::string_view>& candidates) {
   constexpr size_t kLongest = 64;

@@ -91,6 +91,9 @@ class Diagnostics {
 /// `"text"` on one line for a message: control characters as in scene strings, long text shortened.
 std::string quote(std::string_view text);
 
+/// Whether the two differ in the case of letters a-z at most.
+bool same_but_case(std::string_view a, std::string_view b);
+
 /// The candidate nearest to `name` in edit distance (case counts half), or empty when none is near
 /// enough to be what was meant. Names of more than 64 bytes are not looked for: the cost is
 /// quadratic.

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/whole_file.h"
+#include "film/stamp.h"
 #include "film/tonemap.h"
 
 namespace yat {
@@ -146,7 +147,7 @@ bool is_picture_name(std::string_view path) {
   return format_of(path) != Format::kNone;
 }
 
-void write_picture(const std::string& path, std::span<const float> rgb, uint32_t width,
+bool write_picture(const std::string& path, std::span<const float> rgb, uint32_t width,
                    uint32_t height, const FilmSettings& settings, const PictureMetadata& metadata,
                    std::span<const PictureLayer> layers) {
   const Format format = format_of(path);
@@ -157,6 +158,7 @@ void write_picture(const std::string& path, std::span<const float> rgb, uint32_t
                                     width, height, size_t(width) * height * 3, rgb.size()));
 
   std::vector<unsigned char> file;
+  bool stamped = metadata.stamp.empty();
   try {
     if (format == Format::kExr) {
       std::vector<std::string> channels;
@@ -165,7 +167,8 @@ void write_picture(const std::string& path, std::span<const float> rgb, uint32_t
       describe(spec, metadata);
       file = encode(format, spec, OIIO::TypeDesc::FLOAT, all.data());
     } else {
-      const std::vector<float> display = tone_map(rgb, settings);
+      std::vector<float> display = tone_map(rgb, settings);
+      if (!metadata.stamp.empty()) stamped = stamp_bar(display, width, height, metadata.stamp);
       std::vector<uint8_t> bytes(display.size());
       std::transform(display.begin(), display.end(), bytes.begin(),
                      [](float c) { return uint8_t(quantise(c, 255)); });
@@ -178,6 +181,7 @@ void write_picture(const std::string& path, std::span<const float> rgb, uint32_t
     throw ResourceError(fmt::format("error: {}: cannot make the picture: {}", path, e.what()));
   }
   write_whole_file(path, {reinterpret_cast<const char*>(file.data()), file.size()});
+  return stamped;
 }
 
 }  // namespace yat

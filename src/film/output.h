@@ -20,6 +20,7 @@ struct PictureMetadata {
   double samples_per_pixel = 0;
   double render_seconds = 0;
   std::string isa, version;
+  std::string stamp;  ///< written into .png and .jpg (stamp.h); empty: nothing
 };
 
 /// Whether the extension is one that write_picture knows (.exr .png .jpg .jpeg).
@@ -35,8 +36,8 @@ struct PictureLayer {
 
 /// rgb: width * height * 3, linear Rec.709. layers: written into .exr only, after R, G and B.
 /// Missing folders are made. Throws ResourceError when the file cannot be written, UsageError for
-/// an unknown extension.
-void write_picture(const std::string& path, std::span<const float> rgb, uint32_t width,
+/// an unknown extension. Returns whether a stamp is there if it was wanted.
+bool write_picture(const std::string& path, std::span<const float> rgb, uint32_t width,
                    uint32_t height, const FilmSettings& settings, const PictureMetadata& metadata,
                    std::span<const PictureLayer> layers = {});
 

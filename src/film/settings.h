@@ -6,7 +6,17 @@
 
 namespace yat {
 
-enum class ToneMap { kLinear, kReinhard, kAutoLinear, kMaxWhite, kContrast };
+enum class ToneMap {
+  kLinear,
+  kReinhard,
+  kAutoLinear,
+  kMaxWhite,
+  kContrast,
+  // YART's (lxs 12.3): on linear Rec.709 as it is, whatever the film's colour space.
+  kYartLinear,
+  kYartReinhard,
+  kOutOfGamut,
+};
 enum class ClampMethod { kCut, kLum, kHue, kDarken };
 
 struct FilmSettings {
@@ -20,7 +30,8 @@ struct FilmSettings {
   float linear_sensitivity = 50, linear_exposure = 1, linear_fstop = 2.8f, linear_gamma = 1;
   float reinhard_prescale = 1, reinhard_postscale = 1, reinhard_burn = 6;
   float contrast_ywa = 1;
-  float exposure_stops = 0;  ///< --exposure: 2^stops before tone mapping
+  float out_of_gamut[3] = {1, 0, 0};  ///< outofgamut_color: of pixels above 1, not gamma-encoded
+  float exposure_stops = 0;           ///< --exposure: 2^stops before tone mapping
   ClampMethod clamp = ClampMethod::kCut;
 
   float red[2] = {.63f, .34f}, green[2] = {.31f, .595f}, blue[2] = {.155f, .07f};  ///< xy

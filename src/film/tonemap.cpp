@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "film/colour.h"
+#include "film/tonemap_yart.h"
 
 namespace yat {
 
@@ -53,6 +54,10 @@ double common_factor(const Luminance& picture, const FilmSettings& s) {
     }
     case ToneMap::kReinhard:
       return 0.1 / picture.log_mean * double(s.reinhard_postscale);
+    case ToneMap::kYartLinear:
+    case ToneMap::kYartReinhard:
+    case ToneMap::kOutOfGamut:
+      break;
   }
   return 1;
 }
@@ -106,6 +111,7 @@ void clamp_bright(Colour& c, double luminance, ClampMethod method) {
 }  // namespace
 
 std::vector<float> tone_map(std::span<const float> rgb, const FilmSettings& settings) {
+  if (is_yart(settings.tone_map)) return yart_tone_map(rgb, settings);
   const size_t pixels = rgb.size() / 3;
   const ColourMatrix from_rec709 = rec709_to_xyz();
   const ColourMatrix film_xyz = film_to_xyz(settings);

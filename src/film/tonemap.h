@@ -17,6 +17,10 @@ namespace yat {
 /// returns  3 floats a pixel in [0, 1], film colour space, gamma-encoded: what is quantised by
 ///          truncation to 8 or 16 bits.
 ///
+/// YART's kernels instead: exposure; negative channels to 0; linear: divided by the largest channel
+/// where that is above 1; reinhard: c / (1 + c); outofgamut: as linear, but painted in one colour
+/// where a channel is above 1; power law.
+///
 /// Statistics that a tone map needs (mean, logarithmic mean, maximum of the luminance) are over the
 /// pixels with luminance > 0 and summed in pixel order. Throws UsageError for a film colour space
 /// without volume.

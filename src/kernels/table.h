@@ -54,7 +54,24 @@ struct Scratch {
   size_t bytes = 0;
 };
 
-enum class SamplerKind : uint32_t { kIndependent, kSobol, kCount };
+enum class SamplerKind : uint32_t {
+  kIndependent,
+  kSobol,
+  kRegular,
+  kJittered,
+  kNRooks,
+  kMultiJittered,
+  kCorrelatedMultiJittered,
+  kCount
+};
+
+/// What all random numbers of a render have in common. A bare seed will do for samplers without
+/// sets.
+struct DrawKey {
+  uint32_t seed;
+  uint32_t columns, rows;  ///< stratified samplers: columns x rows samples are spread together
+  constexpr DrawKey(uint32_t s, uint32_t c = 8, uint32_t r = 8) : seed(s), columns(c), rows(r) {}
+};
 
 /// Named random dimensions, each a pair of numbers (kernels/rng.h says how they are spread).
 /// Camera dimensions are drawn once per path, the others at every scattering vertex.
@@ -107,16 +124,16 @@ struct KernelTable {
   // -- generate ---------------------------------------------------------------------------------
   /// Two random numbers in [0,1) per row for `dimension` of the vertex path depth (low 16 bits of
   /// depth, for kChild all of it; null = 0). `second` may be null.
-  void (*draw[uint32_t(SamplerKind::kCount)])(uint32_t seed, Dimension dimension,
+  void (*draw[uint32_t(SamplerKind::kCount)])(DrawKey sets, Dimension dimension,
                                               const uint32_t* pixel, const uint32_t* sample,
                                               const uint32_t* depth, float* first, float* second,
                                               uint32_t n) noexcept;
   /// Camera rays and fresh path states. film_u/v: position in the filter; lens_u/v may be null for
-  /// a pinhole ([1] is the thin lens variant).
-  void (*generate_camera_rays[2])(const SceneView&, const CameraSample<ConstColumn>&,
-                                  const float* film_u, const float* film_v, const float* lens_u,
-                                  const float* lens_v, const Ray<Column>&, const PathState<Column>&,
-                                  uint32_t n) noexcept;
+  /// a camera without a lens.
+  void (*generate_camera_rays[uint32_t(CameraKind::kCount)])(
+      const SceneView&, const CameraSample<ConstColumn>&, const float* film_u, const float* film_v,
+      const float* lens_u, const float* lens_v, const Ray<Column>&, const PathState<Column>&,
+      uint32_t n) noexcept;
 
   // -- intersect --------------------------------------------------------------------------------
   size_t (*traversal_scratch_bytes)(const TreeView&, uint32_t max_rays) noexcept;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "scene/compile_objects.h"
 #include "scene/light_maps.h"
@@ -34,6 +35,40 @@ void accept_silently(const std::optional<Plugin>& plugin) {
   for (const Parameter& parameter : plugin->parameters) parameter.used = true;
 }
 
+/// The sampler that a statement names: LuxRender's as what is nearest, yat's own names as they are.
+/// Only noise depends on it. YART ignores the statement.
+SamplerKind sampler_of(const Description& description, Diagnostics& diagnostics) {
+  static constexpr std::pair<std::string_view, SamplerKind> kNames[] = {
+      {"random", SamplerKind::kIndependent},
+      {"lowdiscrepancy", SamplerKind::kSobol},
+      {"metropolis", SamplerKind::kSobol},
+      {"erpt", SamplerKind::kSobol},
+      {"independent", SamplerKind::kIndependent},
+      {"sobol", SamplerKind::kSobol},
+      {"regular", SamplerKind::kRegular},
+      {"jittered", SamplerKind::kJittered},
+      {"nrooks", SamplerKind::kNRooks},
+      {"multijittered", SamplerKind::kMultiJittered},
+      {"cmj", SamplerKind::kCorrelatedMultiJittered},
+  };
+  accept_silently(description.sampler);
+  if (!description.sampler || description.dialect == Dialect::kYart) return SamplerKind::kSobol;
+  const Plugin& plugin = *description.sampler;
+  std::vector<std::string_view> names;
+  for (const auto& [name, kind] : kNames) {
+    names.push_back(name);
+    if (plugin.type != name) continue;
+    if (name == "metropolis" || name == "erpt" || name == "random" || name == "lowdiscrepancy")
+      diagnostics.note(plugin.loc,
+                       fmt::format("Sampler \"{}\": yat's nearest is \"{}\" (--sampler)", name,
+                                   kind == SamplerKind::kSobol ? "sobol" : "independent"));
+    return kind;
+  }
+  diagnostics.warning(plugin.loc, fmt::format("unknown Sampler \"{}\"{}: \"sobol\" is used",
+                                              plugin.type, did_you_mean(plugin.type, names)));
+  return SamplerKind::kSobol;
+}
+
 /// Trees give the same picture: what is asked for here is speed alone.
 bool wants_kd_tree(const std::optional<Plugin>& accelerator, TreeChoice choice,
                    Diagnostics& diagnostics) {
@@ -57,12 +92,17 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   scene.hash = description.hash;
   scene.colour = colour_model(options.colour);
   scene.film = compile_film(description, options, diagnostics);
-  set_filter(compile_filter(description.filter, diagnostics), scene);
+  // YART knows no filters: a pixel is the mean over its square.
+  static const Plugin kBox{"box", {}, {}};
+  set_filter(compile_filter(description.dialect == Dialect::kYart ? std::optional<Plugin>(kBox)
+                                                                  : description.filter,
+                            diagnostics),
+             scene);
   const IntegratorSettings integrator = compile_integrator(description.integrator, diagnostics);
   scene.max_depth = integrator.max_depth;
-  scene.direct_only = integrator.direct_only;
+  scene.direct_only = options.direct_only.value_or(integrator.direct_only);
   scene.show_environment = integrator.show_environment;
-  accept_silently(description.sampler);
+  scene.sampler = sampler_of(description, diagnostics);
   const bool kd_tree = wants_kd_tree(description.accelerator, options.tree, diagnostics);
   accept_silently(description.renderer);
   accept_silently(description.volume_integrator);
@@ -70,6 +110,17 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   ShapePlacer shapes(description, scene.colour, options.instances, diagnostics);
   shapes.place_all();
   scene.shapes_read = shapes.shapes_read();
+  // YART's path tracer knows no points.
+  const bool sphere_lamps = description.dialect == Dialect::kYart && !scene.direct_only;
+  std::vector<const LightEntry*> other_lights;
+  for (const LightEntry& light : description.lights) {
+    std::optional<SphereLamp> lamp;
+    if (sphere_lamps) lamp = compile_sphere_lamp(light, description, scene.colour, diagnostics);
+    if (lamp)
+      shapes.place_lamp(*lamp, light.plugin.loc);
+    else
+      other_lights.push_back(&light);
+  }
   ObjectCompiler objects(shapes.shared(), description, diagnostics);
   objects.build({options.block_width, kd_tree, {}}, pool, scene);
 
@@ -81,7 +132,8 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   scene.center = bounds.empty() ? camera_position(description) : bounds.center();
   const CameraSetup camera = compile_camera(description, scene.film, scene.center, diagnostics);
   scene.camera = camera.view;
-  scene.thin_lens = camera.thin_lens;
+  scene.camera_kind = camera.kind;
+  scene.autofocus = camera.autofocus;
   const float* eye = scene.camera.origin;
   const double reach =
       std::max(bounds.radius(), std::hypot(double(eye[0]), double(eye[1]), double(eye[2])));
@@ -99,9 +151,10 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   shapes.materials().finish(scene);
   std::vector<LightRow<Value>> lights = std::move(rows.lights());
   LightTables light_tables;
-  for (const LightEntry& light : description.lights)
-    compile_light(light, description, scene.colour, scene.center, light_tables, lights,
+  for (const LightEntry* light : other_lights)
+    compile_light(*light, description, scene.colour, scene.center, light_tables, lights,
                   diagnostics);
+  scene.light_samples = shapes.light_samples() + other_lights.size();
   finish_lights(std::move(lights), light_tables, double(scene.radius), scene);
   if (scene.prim_bin.empty() && scene.instances.empty() &&
       scene.first_environment == scene.lights.size())

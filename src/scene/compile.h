@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,8 @@ struct CompileOptions {
   TreeChoice tree = TreeChoice::kFromScene;
   ColourMode colour = ColourMode::kBands;
   InstanceMode instances = InstanceMode::kAuto;
+  /// Direct light, mirrors and glass alone, or all light; empty: as SurfaceIntegrator says.
+  std::optional<bool> direct_only;
 };
 
 /// The compiled scene: owns all columns.
@@ -91,7 +94,9 @@ struct Scene {
   int32_t max_depth = 16;                                 ///< from SurfaceIntegrator
   bool direct_only = false;                               ///< SurfaceIntegrator "directlighting"
   bool show_environment = true;                           ///< to camera rays
-  uint64_t hash = 0;                                      ///< of the scene text
+  /// Sum of "nsamples" over the lights: shadow rays of YART's ray tracer at a hit.
+  uint64_t light_samples = 0;
+  uint64_t hash = 0;  ///< of the scene text
 
   RowTable<TriangleRow> triangles;
   RowTable<TriangleVertexRow> triangle_vertices;
@@ -115,7 +120,8 @@ struct Scene {
   AlignedArray<float> filter_marginal, filter_conditional, filter_sign;
   CameraView camera{};
   FilterView filter{};
-  std::vector<Bin> bins;  ///< bins[0] is the ended bin
+  SamplerKind sampler = SamplerKind::kSobol;  ///< from the Sampler statement
+  std::vector<Bin> bins;                      ///< bins[0] is the ended bin
   /// Bins from here on are visited by paths at their last vertex too: for the emission of the
   /// surface or, where it is see-through, of what lies behind.
   uint32_t first_lasting_bin = 1;
@@ -123,7 +129,8 @@ struct Scene {
   uint32_t first_environment = 0;  ///< row of lights: from there on rays that miss find them
   uint32_t light_search_step = 0;
   bool all_occlude = true;
-  bool thin_lens = false;
+  CameraKind camera_kind = CameraKind::kPinhole;
+  bool autofocus = false;  ///< focus_camera() (wavefront/focus.h) has to be called
   uint32_t shapes_read = 0, degenerate_triangles = 0;
 
   /// Views into this object; valid while it lives and is not moved.

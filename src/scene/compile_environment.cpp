@@ -25,16 +25,24 @@ MapLayout map_layout(Parameters& p) {
 
 void compile_infinite(LightContext& light) {
   Parameters& p = light.p;
-  const glm::dvec3 radiance = light_color(p, light.description, light.colour).bands;
+  const bool by_yart = light.description.dialect == Dialect::kYart;
+  glm::dvec3 radiance = light_color(p, light.description, light.colour).bands;
   const std::string name = p.text("mapname", "");
   const MapLayout layout = map_layout(p);
-  const auto gamma = double(p.number("gamma", 1));
+  auto gamma = double(p.number("gamma", 1));
+  glm::dmat3 to_world = light.linear();
+  if (by_yart && !name.empty()) {
+    // The picture as it is, half a turn about z against LuxRender's (lxs 12.5).
+    radiance = glm::dvec3(1.);
+    gamma = 1;
+    to_world = glm::dmat3(-1, 0, 0, 0, -1, 0, 0, 0, 1);
+  }
   // The table by which directions are drawn has the size that yat gives it.
   p.accept({"imapmaxresolution"});
   if (name.empty()) return light.add(light_row(LightKind::kConstant, radiance));
   const auto picture = read_light_picture(p, name, gamma, light.description);
   if (!picture) return light.add(light_row(LightKind::kConstant, radiance));
-  auto map = make_light_map(light.linear());
+  auto map = make_light_map(to_world);
   if (!map)
     return p.diagnostics().error(
         light.loc(), fmt::format("the transform of {} cannot be inverted: left out", p.what()));

@@ -11,8 +11,22 @@ namespace yat {
 
 namespace {
 
+/// YART knows three kernels, without parameters; its default is linear.
+ToneMap yart_tone_map_by_name(Parameters& film) {
+  const std::string name = film.text("tonemapkernel", "linear");
+  if (name == "linear") return ToneMap::kYartLinear;
+  if (name == "reinhard") return ToneMap::kYartReinhard;
+  if (name == "outofgamut") return ToneMap::kOutOfGamut;
+  film.diagnostics().warning(film.loc("tonemapkernel"),
+                             fmt::format("YART has no tonemapkernel \"{}\": its \"linear\" is "
+                                         "used, which leaves colours up to 1 as they are",
+                                         name));
+  return ToneMap::kYartLinear;
+}
+
 ToneMap tone_map_by_name(Parameters& film) {
   const std::string name = film.text("tonemapkernel", "autolinear");
+  if (name == "outofgamut") return ToneMap::kOutOfGamut;
   if (name == "autolinear") return ToneMap::kAutoLinear;
   if (name == "linear") return ToneMap::kLinear;
   if (name == "reinhard") return ToneMap::kReinhard;
@@ -20,9 +34,9 @@ ToneMap tone_map_by_name(Parameters& film) {
   if (name == "contrast") return ToneMap::kContrast;
   film.diagnostics().warning(
       film.loc("tonemapkernel"),
-      fmt::format(
-          "unknown tonemapkernel \"{}\"{}: \"autolinear\" is used", name,
-          did_you_mean(name, {"autolinear", "linear", "reinhard", "maxwhite", "contrast"})));
+      fmt::format("unknown tonemapkernel \"{}\"{}: \"autolinear\" is used", name,
+                  did_you_mean(name, {"autolinear", "linear", "reinhard", "maxwhite", "contrast",
+                                      "outofgamut"})));
   return ToneMap::kAutoLinear;
 }
 
@@ -197,7 +211,10 @@ FilmSettings compile_film(const Description& description, const CompileOptions& 
     set_crop(settings, crop, film.loc("cropwindow"), diagnostics);
 
   settings.filename = film.text("filename", settings.filename);
-  settings.tone_map = tone_map_by_name(film);
+  settings.tone_map =
+      description.dialect == Dialect::kYart ? yart_tone_map_by_name(film) : tone_map_by_name(film);
+  const glm::dvec3 paint = film.triple("outofgamut_color", ParameterType::kColor, {1, 0, 0});
+  for (int i = 0; i < 3; ++i) settings.out_of_gamut[i] = float(paint[i]);
   settings.gamma = positive(film, "gamma", settings.gamma);
   settings.linear_sensitivity = film.number("linear_sensitivity", settings.linear_sensitivity);
   settings.linear_exposure = film.number("linear_exposure", settings.linear_exposure);

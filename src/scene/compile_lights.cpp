@@ -41,8 +41,30 @@ LightColor light_color(Parameters& p, const Description& description, const Colo
   return {to_bands(color, colour.light), luminance(to_rgb(own, colour.film))};
 }
 
+namespace {
+
+/// YART's one factor for the units of area and point lights: no area, no colour, and the defaults
+/// hold for both (lxs 12.5).
+double yart_power(Parameters& p) {
+  const auto power = double(p.number("power", 100)), efficacy = double(p.number("efficacy", 17));
+  return power != 0 || efficacy != 0 ? power * efficacy / 100 : 1;
+}
+
+/// "nsamples": shadow rays at a hit in YART's ray tracer.
+uint32_t light_samples(Parameters& p) {
+  const int32_t samples = p.integer("nsamples", 1);
+  if (samples >= 1 && samples <= 65536) return uint32_t(samples);
+  p.diagnostics().warning(
+      p.loc("nsamples"),
+      fmt::format("\"nsamples\" is {}, but must be from 1 to 65536: 1 is used", samples));
+  return 1;
+}
+
+}  // namespace
+
 glm::dvec3 light_intensity(LightContext& light, double solid_angle) {
   const LightColor color = light_color(light.p, light.description, light.colour);
+  if (light.description.dialect == Dialect::kYart) return color.bands * yart_power(light.p);
   const double lumen = double(light.p.number("power", 0)) * double(light.p.number("efficacy", 0));
   if (!(lumen > 0)) return color.bands;
   const double k = lumen / (solid_angle * color.y);
@@ -97,10 +119,16 @@ std::optional<AreaLight> compile_area_light(const AreaLightEntry& entry,
   const LightColor color = light_color(p, description, colour);
   light.color = color.bands;
   light.luminance = color.y;
-  light.power = double(p.number("power", 100));
-  light.efficacy = double(p.number("efficacy", 17));
+  if (description.dialect == Dialect::kYart) {
+    light.color *= yart_power(p);
+    light.power = light.efficacy = 0;
+  } else {
+    light.power = double(p.number("power", 100));
+    light.efficacy = double(p.number("efficacy", 17));
+  }
+  light.samples = light_samples(p);
   p.unsupported({"mapname", "iesname"}, "the light shines evenly (Lambertian)");
-  p.accept({"importance", "nsamples", "flipz"});
+  p.accept({"importance", "flipz"});
   p.report_unused();
   return light;
 }
@@ -114,6 +142,21 @@ glm::dvec3 area_light_radiance(const AreaLight& light, double area, Diagnostics&
                       "the area light has power but no area or a black \"L\": \"L\" times "
                       "\"gain\" is taken as its radiance");
   return light.color;
+}
+
+std::optional<SphereLamp> compile_sphere_lamp(const LightEntry& entry,
+                                              const Description& description,
+                                              const ColourModel& colour, Diagnostics& diagnostics) {
+  if (entry.plugin.type != "point") return std::nullopt;
+  Parameters p(entry.plugin, "light \"point\"", diagnostics);
+  SphereLamp lamp;
+  lamp.center = transform_point(entry.to_world, glm::dvec3(0.));
+  lamp.radiance = light_color(p, description, colour).bands * yart_power(p);
+  lamp.samples = light_samples(p);
+  p.unsupported({"mapname", "iesname"}, "the light shines evenly in all directions");
+  p.accept({"from", "flipz", "importance"});
+  p.report_unused();
+  return lamp;
 }
 
 void compile_light(const LightEntry& entry, const Description& description,
@@ -163,6 +206,7 @@ double light_power(const LightRow<Value>& light, const ColourModel& colour, doub
     case LightKind::kSphere:
       return kPi * sphere * extra * extra * y;
     case LightKind::kPoint:
+      return light.b_y > 0 ? cross_section * y : sphere * y;
     case LightKind::kPointMap:
       return sphere * y;
     case LightKind::kDistant:

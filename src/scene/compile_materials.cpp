@@ -56,6 +56,9 @@ const std::vector<std::string_view>& material_types() {
   return types;
 }
 
+/// Surfaces without a material: LuxRender's Kd; YART's colour .75 times its diffuse share .5.
+constexpr double kDefaultKd = .9, kYartDefaultKd = .375;
+
 /// What every material takes.
 void accept_common(Parameters& p) {
   p.unsupported({"bumpmap"}, "the surface stays smooth");
@@ -135,7 +138,10 @@ MaterialRef MaterialCompiler::build(const Plugin& plugin) {
 }
 
 MaterialRef MaterialCompiler::compile(uint32_t entry, const VolumesAround& volumes) {
-  const bool is_default = entry >= description_.materials.size();
+  const bool by_yart = description_.dialect == Dialect::kYart;
+  // In YART a null surface is there: it has the default matte.
+  const bool is_default = entry >= description_.materials.size() ||
+                          (by_yart && description_.materials[entry].plugin.type == "null");
   // Only glass, and what may be made of it, looks at volumes: the others stay one row.
   const VolumesAround of_caller = volumes_;
   volumes_ = !is_default && sees_volumes(description_.materials[entry].plugin.type)
@@ -150,7 +156,7 @@ MaterialRef MaterialCompiler::compile(uint32_t entry, const VolumesAround& volum
     // A scene's text cannot name what comes after; a description made otherwise may.
     if (!is_default)
       diagnostics_.error(description_.materials[entry].plugin.loc, "a material is made of itself");
-    done_[key] = add_matte(*this, glm::dvec3(.9), 0);
+    done_[key] = add_matte(*this, glm::dvec3(by_yart ? kYartDefaultKd : kDefaultKd), 0);
   }
   volumes_ = of_caller;
   return *done_[key];

@@ -41,6 +41,10 @@ class ShapePlacer {
   ShapePlacer(const Description& description, const ColourModel& colour, InstanceMode mode,
               Diagnostics& diagnostics);
   void place_all();
+  /// Places a sphere that shines, of the default material.
+  void place_lamp(const SphereLamp& lamp, SourceLoc loc);
+  /// Sum of "nsamples" over the shapes that shine.
+  uint64_t light_samples() const { return light_samples_; }
   const std::vector<PlacedShape>& placed() const { return placed_; }
   /// Points into this object.
   const SharedShapes& shared() const { return shared_; }
@@ -82,6 +86,8 @@ class ShapePlacer {
   std::vector<PlacedShape> placed_;
   SharedShapes shared_;
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> material_rows_;  // (shared, override) -> row
+  std::optional<CompiledShape> lamp_sphere_;
+  uint64_t light_samples_ = 0;
   uint64_t copied_ = 0;
   uint32_t shapes_read_ = 0;
 };

@@ -44,7 +44,8 @@ FilterTables compile_filter(const std::optional<Plugin>& filter, Diagnostics& di
 
 struct CameraSetup {
   CameraView view{};
-  bool thin_lens = false;
+  CameraKind kind = CameraKind::kPinhole;
+  bool autofocus = false;  ///< the focal distance is to be found in the scene
 };
 CameraSetup compile_camera(const Description& description, const FilmSettings& film,
                            const glm::dvec3& center, Diagnostics& diagnostics);
@@ -236,6 +237,7 @@ struct AreaLight {
   glm::dvec3 color{1.0};  ///< L * gain in bands, negative channels of L clamped to 0
   double luminance = 1;   ///< Y(L), gain left out
   double power = 100, efficacy = 17;
+  uint32_t samples = 1;  ///< nsamples
   SourceLoc loc;
 };
 /// Empty if the statement cannot be used (reported).
@@ -256,6 +258,19 @@ struct Bounds {
   glm::dvec3 center() const { return .5 * min + .5 * max; }
   double radius() const { return empty() ? 0 : .5 * glm::length(max - min); }
 };
+
+/// What YART's path tracer makes of a point light: a sphere of radius .05 at the origin of its CTM,
+/// whatever "from" says (lxs 12.5).
+struct SphereLamp {
+  static constexpr double kRadius = .05;
+  glm::dvec3 center{0.0};    ///< world
+  glm::dvec3 radiance{0.0};  ///< bands
+  uint32_t samples = 1;      ///< nsamples
+};
+/// Empty for other lights.
+std::optional<SphereLamp> compile_sphere_lamp(const LightEntry& entry,
+                                              const Description& description,
+                                              const ColourModel& colour, Diagnostics& diagnostics);
 
 struct LightTables;
 /// Appends the rows of a LightSource, and what they need in tables.

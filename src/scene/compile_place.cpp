@@ -175,6 +175,23 @@ void ShapePlacer::place(uint32_t index, const Matrix& to_world, uint32_t materia
   placed_.push_back(std::move(placed));
 }
 
+void ShapePlacer::place_lamp(const SphereLamp& lamp, SourceLoc loc) {
+  if (!lamp_sphere_) {
+    lamp_sphere_.emplace();
+    lamp_sphere_->kind = CompiledShape::Kind::kSphere;
+    lamp_sphere_->radius = SphereLamp::kRadius;
+  }
+  PlacedShape placed;
+  placed.shape = &*lamp_sphere_;
+  placed.loc = loc;
+  placed.placement.origin = lamp.center;
+  placed.placement.scale = 1;
+  placed.material = materials_.compile(kNone);
+  placed.radiance = lamp.radiance;
+  light_samples_ += lamp.samples;
+  placed_.push_back(std::move(placed));
+}
+
 const ShapePlacer::ShapeInfo& ShapePlacer::info(uint32_t index) {
   ShapeInfo& info = shapes_[index];
   if (info.read) return info;
@@ -215,6 +232,7 @@ glm::dvec3 ShapePlacer::radiance(const ShapeEntry& entry, const CompiledShape& s
                        "not shine");
     return black;
   }
+  light_samples_ += (*light)->samples;
   return radiance;
 }
 

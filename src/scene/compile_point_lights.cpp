@@ -87,8 +87,13 @@ void compile_point(LightContext& light) {
   const std::string map_name = p.text("mapname", ""), ies_name = p.text("iesname", "");
   const bool flip_z = p.flag("flipz", false);
   LightRow<Value> row = light_row(LightKind::kPoint, intensity);
-  // Light to world is T(from) * CTM: `from` is neither turned nor scaled.
-  if (!place(light, from + transform_point(light.entry.to_world, glm::dvec3(0.)), row)) return;
+  // YART's points do not fall off.
+  const bool by_yart = light.description.dialect == Dialect::kYart;
+  (by_yart ? row.b_y : row.b_x) = 1;
+  // Light to world is T(from) * CTM: `from` is neither turned nor scaled. In YART it is both.
+  const glm::dvec3 at = by_yart ? transform_point(light.entry.to_world, from)
+                                : from + transform_point(light.entry.to_world, glm::dvec3(0.));
+  if (!place(light, at, row)) return;
   std::optional<LightPicture> picture;
   if (!ies_name.empty()) {
     if (!map_name.empty())

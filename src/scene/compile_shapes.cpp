@@ -86,7 +86,37 @@ void add_quads(std::span<const int32_t> quads, const Matrix& to_world, Mesh& mes
   }
 }
 
-bool read_mesh(Parameters& p, const Matrix& to_world, Mesh& mesh) {
+/// Vertex normals from the faces around: their sum, each weighted by its area (YART's rule), or the
+/// mean of their unit normals (LuxRender's for plymesh).
+enum class NormalRule { kAreaSum, kUnitMean };
+std::vector<float> vertex_normals(const Mesh& mesh, NormalRule rule) {
+  std::vector<glm::dvec3> sums(mesh.vertices(), glm::dvec3(0.));
+  std::vector<double> weights(mesh.vertices());
+  for (size_t t = 0; t < mesh.indices.size(); t += 3) {
+    const uint32_t* i = &mesh.indices[t];
+    const glm::dvec3 p0 = vertex(mesh.positions, i[0]);
+    const glm::dvec3 n =
+        glm::cross(vertex(mesh.positions, i[1]) - p0, vertex(mesh.positions, i[2]) - p0);
+    const double length = glm::length(n);
+    if (!(length > 0) || !std::isfinite(length)) continue;
+    const double weight = rule == NormalRule::kAreaSum ? length : 1;
+    for (int k = 0; k < 3; ++k) {
+      sums[i[k]] += n / length * weight;
+      weights[i[k]] += weight;
+    }
+  }
+  std::vector<float> normals(mesh.positions.size());
+  for (size_t v = 0; v < sums.size(); ++v) {
+    const double length = glm::length(sums[v]);
+    // Where faces cancel out (both sides of a sheet share vertices) zero is kept: each triangle
+    // then takes its own normal.
+    const glm::dvec3 n = length > 1e-6 * weights[v] ? sums[v] / length : glm::dvec3(0.);
+    for (int k = 0; k < 3; ++k) normals[3 * v + size_t(k)] = float(n[k]);
+  }
+  return normals;
+}
+
+bool read_mesh(Parameters& p, const Matrix& to_world, Dialect dialect, Mesh& mesh) {
   mesh.positions = p.floats("P", ParameterType::kPoint, mesh.owned_positions);
   mesh.positions = mesh.positions.first(mesh.positions.size() / 3 * 3);
   const bool old_name = !p.given("triindices") && p.given("indices");
@@ -120,30 +150,12 @@ bool read_mesh(Parameters& p, const Matrix& to_world, Mesh& mesh) {
   mesh.uvs = per_vertex(p, uv_name, uvs, 2, n);
   mesh.indices.assign(triangles.begin(), triangles.end());
   add_quads(quads, to_world, mesh);
+  if (dialect == Dialect::kYart && mesh.normals.empty()) {
+    mesh.owned_normals = vertex_normals(mesh, NormalRule::kAreaSum);
+    mesh.normals = mesh.owned_normals;
+    mesh.normals_from_file = false;
+  }
   return true;
-}
-
-/// The plymesh rule: normalised unweighted mean of the unit normals of the faces around a vertex.
-std::vector<float> mean_face_normals(const Mesh& mesh) {
-  std::vector<glm::dvec3> sums(mesh.vertices(), glm::dvec3(0.));
-  for (size_t t = 0; t < mesh.indices.size(); t += 3) {
-    const uint32_t* i = &mesh.indices[t];
-    const glm::dvec3 p0 = vertex(mesh.positions, i[0]);
-    const glm::dvec3 n =
-        glm::cross(vertex(mesh.positions, i[1]) - p0, vertex(mesh.positions, i[2]) - p0);
-    const double length = glm::length(n);
-    if (!(length > 0) || !std::isfinite(length)) continue;
-    for (int k = 0; k < 3; ++k) sums[i[k]] += n / length;
-  }
-  std::vector<float> normals(mesh.positions.size());
-  for (size_t v = 0; v < sums.size(); ++v) {
-    const double length = glm::length(sums[v]);
-    // Where faces cancel out (both sides of a sheet share vertices) zero is kept: each triangle
-    // then takes its own normal.
-    const glm::dvec3 n = length > 1e-6 ? sums[v] / length : glm::dvec3(0.);
-    for (int k = 0; k < 3; ++k) normals[3 * v + size_t(k)] = float(n[k]);
-  }
-  return normals;
 }
 
 bool read_plymesh(Parameters& p, const Description& description, Mesh& mesh) {
@@ -177,7 +189,7 @@ bool read_plymesh(Parameters& p, const Description& description, Mesh& mesh) {
     return false;
   }
   mesh.normals_from_file = !mesh.owned_normals.empty() && !smooth;
-  if (!mesh.normals_from_file) mesh.owned_normals = mean_face_normals(mesh);
+  if (!mesh.normals_from_file) mesh.owned_normals = vertex_normals(mesh, NormalRule::kUnitMean);
   mesh.normals = mesh.owned_normals;
   return true;
 }
@@ -317,7 +329,7 @@ std::optional<CompiledShape> compile_shape(const ShapeEntry& entry, const Descri
   bool usable = false;
   if (type == "mesh" || type == "trianglemesh" || type == "waldtrianglemesh" ||
       type == "barytrianglemesh" || type == "loopsubdiv") {
-    usable = read_mesh(p, entry.to_world, shape.mesh);
+    usable = read_mesh(p, entry.to_world, description.dialect, shape.mesh);
   } else if (type == "plymesh") {
     usable = read_plymesh(p, description, shape.mesh);
   } else if (type == "sphere") {

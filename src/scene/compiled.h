@@ -197,7 +197,10 @@ static_assert(sizeof(kLightKindNames) / sizeof(*kLightKindNames) == uint32_t(Lig
 ///               in an instance, further = what the rounding of its transform adds to the distance
 ///               that a ray keeps off it [m]
 ///   sphere      a = centre, extra = radius, b_x = 1 if it shines inwards
-///   point       a = position; radiance holds intensity [W/sr]
+///   point       a = position; the irradiance at distance d on a surface that faces it is radiance
+///   /
+///               (b_x d^2 + b_y): b = (1, 0), radiance = intensity [W/sr], or without fall-off (0,
+///               1)
 ///   distant     a = unit direction towards the light; radiance holds the irradiance on a surface
 ///               that faces it (theta 0), or radiance of a disc with cos(theta) in extra < 1
 ///   spot        a = position, b = unit axis, extra = cosine of the cone, c_x = 1 / (cosine where
@@ -290,15 +293,39 @@ struct LightView {
 
 // ---- Camera ----------------------------------------------------------------------------------
 
-/// A perspective camera as an affine map: the direction of raster position (x, y), in pixels from
-/// the top left of the full image, is normalize(corner + x * dx + y * dy).
+enum class CameraKind : uint32_t {
+  kPinhole,
+  kThinLens,
+  kPolygonLens,
+  kOrthographic,
+  kEnvironment,
+  kFisheye,
+  kCount
+};
+constexpr bool has_lens(CameraKind kind) {
+  return kind == CameraKind::kThinLens || kind == CameraKind::kPolygonLens;
+}
+
+/// Raster positions (x, y) are in pixels from the top left of the full image.
+///   pinhole and lenses   the direction is normalize(corner + x dx + y dy); forward component of
+///                        corner is 1, of dx and dy 0
+///   orthographic         rays start at corner + x dx + y dy and go along forward
+///   environment          with theta = pi y step_y from +dy and phi = 2 pi x step_x: direction
+///                        normalize(-sin theta sin phi dx + cos theta dy - sin theta cos phi
+///                        forward)
+///   fisheye              with (r cos a, r sin a) = (x step_x - 1, 1 - y step_y): at psi = r
+///                        half_angle from the axis, in direction a: normalize(sin psi cos a dx +
+///                        sin psi sin a dy + cos psi forward); nothing is seen where r > 1
 struct CameraView {
   float origin[3];                ///< scene space [m]
-  float corner[3], dx[3], dy[3];  ///< scene space; forward component of corner is 1
-  float forward[3];               ///< unit view axis
+  float corner[3], dx[3], dy[3];  ///< scene space
+  float forward[3];               ///< view axis; unit, but for environment and fisheye
   float lens_x[3], lens_y[3];     ///< lens axes times radius [m]; 0 for a pinhole
   float focal_distance;           ///< depth of the plane of focus [m]
   float near_depth, far_depth;    ///< hither and yon, along the view axis [m]
+  float step_x, step_y;           ///< environment, fisheye: see there
+  float half_angle;               ///< fisheye [turns]
+  uint32_t blades;                ///< polygon lens: its corners, >= 3
 };
 
 enum class FilterKind : uint32_t {

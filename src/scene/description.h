@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "scene/dialect.h"
 
 namespace yat {
 
@@ -47,6 +48,7 @@ struct Plugin {
   std::string type;
   SourceLoc loc;
   std::vector<Parameter> parameters;
+  bool any_case = false;  ///< names of parameters match whatever their case (YART)
 };
 
 /// CTM at a directive: object or light space to world space.
@@ -102,10 +104,18 @@ struct InstanceEntry {
   SourceLoc loc;
 };
 
+/// A sign that the scene may have been made for the other renderer.
+struct DialectHint {
+  SourceLoc loc;
+  std::string message;
+};
+
 struct Description {
   std::string file;       ///< path of the main scene file
   std::string directory;  ///< its folder: data files are looked up from here (lxs 1.5)
   uint64_t hash = 0;      ///< FNV-1a of all scene text read, includes too
+  Dialect dialect = Dialect::kLuxRender;   ///< rules by which it was read, and is to be compiled
+  std::vector<DialectHint> dialect_hints;  ///< at most one of each sort and file
 
   std::optional<Plugin> camera, film, filter, sampler, integrator, volume_integrator, accelerator,
       renderer;

@@ -4,12 +4,51 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/matrix.hpp>
 #include <utility>
 
 #include "scene/transforms.h"
 
 namespace yat {
+
+namespace {
+
+/// But for the rounding of products.
+bool nearly_equal(const Matrix& a, const Matrix& b) {
+  double largest = 0, difference = 0;
+  for (int i = 0; i < 16; ++i) {
+    const double x = a[i / 4][i % 4], y = b[i / 4][i % 4];
+    largest = std::max({largest, std::abs(x), std::abs(y)});
+    difference = std::max(difference, std::abs(x - y));
+  }
+  return difference <= 1e-12 * largest;
+}
+
+}  // namespace
+
+void SceneBuilder::hint(SourceLoc loc, std::string_view sort, std::string message) {
+  if (hinted_.emplace(loc.file, sort).second)
+    description_.dialect_hints.push_back({loc, std::move(message)});
+}
+
+/// What only YART has, though it is read here by both rules.
+void SceneBuilder::hint_at_types(const Statement& s, std::string_view type) {
+  if (by_yart()) return;
+  const bool film = s.directive == "Film";
+  bool found = (s.directive == "Shape" && (type == "plane" || type == "box")) ||
+               (s.directive == "Camera" && type == "fisheye");
+  for (const Parameter& p : s.parameters)
+    if (film && p.name == "tonemapkernel" && !p.strings.empty() && p.strings[0] == "outofgamut") {
+      found = true;
+      type = p.strings[0];
+    }
+  if (found)
+    hint(s.loc, "type",
+         fmt::format("{} {} is YART's: if the scene was made for it, read it by its rules "
+                     "(--compat yart)",
+                     film ? std::string_view("tonemapkernel") : s.directive, quote(type)));
+}
 
 void SceneBuilder::run(const Directive& directive, Statement& statement) {
   if (directive.where == Directive::Where::kOptions && in_world_) {
@@ -31,7 +70,16 @@ void SceneBuilder::run(const Directive& directive, Statement& statement) {
 void SceneBuilder::apply(const Statement& statement, const Matrix& matrix, Apply how) {
   // Of a moving transform only the first keyframe is used.
   if (in_motion_ && keyframes_++ > 0) return;
-  const Matrix result = how == Apply::kReplace ? matrix : state_.ctm * matrix;
+  Matrix result = how == Apply::kReplace ? matrix : state_.ctm * matrix;
+  if (how == Apply::kRelative) {
+    const Matrix other = matrix * state_.ctm;
+    if (by_yart())
+      result = other;
+    else if (in_world_ && !nearly_equal(result, other))
+      hint(statement.loc, "order",
+           "relative transforms are stacked here, and the last one acts first, as in "
+           "LuxRender: YART applied them in the opposite order (--compat yart)");
+  }
   if (!is_finite(result)) {
     diagnostics_.error(
         statement.loc,
@@ -68,27 +116,34 @@ void SceneBuilder::identity(Statement& s) {
 }
 
 void SceneBuilder::translate(Statement& s) {
-  apply(s, translation(s.numbers[0], s.numbers[1], s.numbers[2]));
+  apply(s, translation(s.numbers[0], s.numbers[1], s.numbers[2]), Apply::kRelative);
 }
 
 void SceneBuilder::scale(Statement& s) {
-  apply(s, scaling(s.numbers[0], s.numbers[1], s.numbers[2]));
+  apply(s, scaling(s.numbers[0], s.numbers[1], s.numbers[2]), Apply::kRelative);
 }
 
 void SceneBuilder::rotate(Statement& s) {
-  const auto matrix = rotation(s.numbers[0], s.numbers[1], s.numbers[2], s.numbers[3]);
+  const auto turn = by_yart() ? yart_rotation : rotation;
+  const auto matrix = turn(s.numbers[0], s.numbers[1], s.numbers[2], s.numbers[3]);
   if (!matrix) {
-    diagnostics_.warning(s.loc, "Rotate about an axis 0 0 0, ignored, give the axis a direction");
+    diagnostics_.warning(
+        s.loc, by_yart() ? "Rotate about an axis whose components are all below 1, which YART cuts "
+                           "to 0 0 0, ignored"
+                         : "Rotate about an axis 0 0 0, ignored, give the axis a direction");
     return;
   }
-  apply(s, *matrix);
+  apply(s, *matrix, Apply::kRelative);
 }
 
 void SceneBuilder::look_at(Statement& s) {
   const LookAtResult result = yat::look_at(std::span<const double, 9>(s.numbers.data(), 9));
   if (!result.trouble.empty())
     diagnostics_.warning(s.loc, fmt::format("LookAt: {}", result.trouble));
-  apply(s, result.world_to_camera);
+  if (by_yart())
+    look_at_ = result.world_to_camera;  // the camera's alone, and all that it knows
+  else
+    apply(s, result.world_to_camera);
 }
 
 void SceneBuilder::transform(Statement& s) {
@@ -145,7 +200,7 @@ void SceneBuilder::motion_end(Statement& s) {
 void SceneBuilder::nothing(Statement&) {}
 
 Plugin SceneBuilder::plugin(Statement& s, std::string type) {
-  return {std::move(type), s.loc, std::move(s.parameters)};
+  return {std::move(type), s.loc, std::move(s.parameters), by_yart()};
 }
 
 void SceneBuilder::option(Statement& s) {
@@ -167,14 +222,15 @@ void SceneBuilder::option(Statement& s) {
       diagnostics_.warning(s.loc, fmt::format("a second {}, the one at {} is forgotten, remove one",
                                               name, diagnostics_.place(plug->loc)));
     resolve_textures(s.parameters, TextureKind::kColor);
+    hint_at_types(s, s.strings[0]);
     plug = plugin(s, std::move(s.strings[0]));
   }
 }
 
 void SceneBuilder::camera(Statement& s) {
   option(s);
-  description_.world_to_camera = state_.ctm;
-  const Matrix camera_to_world = glm::inverse(state_.ctm);
+  description_.world_to_camera = by_yart() ? look_at_ : state_.ctm;
+  const Matrix camera_to_world = glm::inverse(description_.world_to_camera);
   if (is_finite(camera_to_world))
     state_.coordinate_systems.insert_or_assign("camera", camera_to_world);
 }

@@ -1,9 +1,11 @@
 #pragma once
 // What each directive does to the description (lxs 2.1).
 
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scene/graphics_state.h"
@@ -38,7 +40,9 @@ std::span<const Directive> directives();
 class SceneBuilder {
  public:
   SceneBuilder(Description& description, Diagnostics& diagnostics)
-      : description_(description), diagnostics_(diagnostics), state_(diagnostics) {}
+      : description_(description),
+        diagnostics_(diagnostics),
+        state_(description.dialect, diagnostics) {}
 
   /// Carries the statement out, or reports that it stands where it must not.
   void run(const Directive& directive, Statement& statement);
@@ -84,8 +88,15 @@ class SceneBuilder {
   void motion_instance(Statement&);
 
  private:
-  enum class Apply { kAppend, kReplace };
+  /// kRelative: Translate, Rotate and Scale, which YART puts on the other side of the CTM.
+  enum class Apply { kAppend, kRelative, kReplace };
   void apply(const Statement& statement, const Matrix& matrix, Apply how = Apply::kAppend);
+  bool by_yart() const { return description_.dialect == Dialect::kYart; }
+  /// Notes a sign that the scene was made for the other renderer: once of each `sort` and file.
+  void hint(SourceLoc loc, std::string_view sort, std::string message);
+  void hint_at_types(const Statement& statement, std::string_view type);
+  const ScopedNames::Entry* look_up(const ScopedNames& names, std::string_view name) const;
+  void use_up(const Statement& shape);
   Matrix checked_columns(const Statement& statement);
   Plugin plugin(Statement& statement, std::string type);
   void resolve_textures(std::vector<Parameter>& parameters, TextureKind otherwise);
@@ -96,6 +107,8 @@ class SceneBuilder {
   Description& description_;
   Diagnostics& diagnostics_;
   GraphicsState state_;
+  std::set<std::pair<uint32_t, std::string>> hinted_;  ///< file and sort
+  Matrix look_at_{1.0};                                ///< YART: of the camera to come
   bool in_world_ = false, ended_ = false;
   SourceLoc world_loc_;
   bool in_motion_ = false;

@@ -20,8 +20,13 @@ std::string_view block_end_name(BlockKind kind) {
 }
 
 void GraphicsState::begin_block(BlockKind kind, SourceLoc loc) {
-  Block block{kind, loc, ctm, material, area_light, object, interior, exterior, reverse_orientation,
-              {},   0,   0};
+  Block block{kind,       loc,
+              ctm,        material,
+              area_light, lasting_material,
+              object,     interior,
+              exterior,   reverse_orientation,
+              {},         0,
+              0};
   for (size_t k = 0; k < kTextureKinds; ++k) block.texture_marks[k] = textures[k].mark();
   block.material_mark = materials.mark();
   block.volume_mark = volumes.mark();
@@ -31,6 +36,8 @@ void GraphicsState::begin_block(BlockKind kind, SourceLoc loc) {
 void GraphicsState::restore(const Block& block) {
   ctm = block.ctm;
   if (block.kind == BlockKind::kTransform) return;
+  lasting_material = block.lasting_material;
+  if (dialect_ == Dialect::kYart) return;
   material = block.material;
   area_light = block.area_light;
   object = block.object;

@@ -26,12 +26,15 @@ std::string_view block_end_name(BlockKind kind);
 
 class GraphicsState {
  public:
-  explicit GraphicsState(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  GraphicsState(Dialect dialect, Diagnostics& diagnostics)
+      : dialect_(dialect), diagnostics_(diagnostics) {}
 
   Matrix ctm{1.0};
   uint32_t material = kNoRow;
   uint32_t area_light = kNoRow;
   uint32_t interior = kNoRow, exterior = kNoRow;  ///< volumes
+  /// YART: what `material` would be if shapes did not use it up and blocks kept it.
+  uint32_t lasting_material = kNoRow;
   bool reverse_orientation = false;
   ScopedNames textures[kTextureKinds];
   ScopedNames materials;
@@ -40,6 +43,8 @@ class GraphicsState {
   ScopedNames objects;
   std::map<std::string, Matrix, std::less<>> coordinate_systems;
 
+  /// A block saves all but the names that last for the whole scene; in YART's rules, and a
+  /// TransformBegin in both, only the CTM.
   void begin_block(BlockKind kind, SourceLoc loc);
   /// Ends the innermost block of that kind and what is open inside it (with a warning). An object
   /// is a wall: nothing in it ends a block around it. False if there is no such block (warned).
@@ -54,13 +59,14 @@ class GraphicsState {
     BlockKind kind;
     SourceLoc loc;
     Matrix ctm;
-    uint32_t material, area_light, object, interior, exterior;
+    uint32_t material, area_light, lasting_material, object, interior, exterior;
     bool reverse_orientation;
     size_t texture_marks[kTextureKinds];
     size_t material_mark, volume_mark;
   };
   void restore(const Block& block);
 
+  Dialect dialect_;
   Diagnostics& diagnostics_;
   std::vector<Block> blocks_;
 };

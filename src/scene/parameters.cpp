@@ -31,7 +31,7 @@ const Parameter* Parameters::find(std::string_view name, ParameterType type) {
   // The last one counts; one of the right type before any other; a texture is asked for as such.
   const Parameter* other = nullptr;
   for (auto it = plugin_.parameters.rbegin(); it != plugin_.parameters.rend(); ++it) {
-    if (it->name != name) continue;
+    if (!is(*it, name)) continue;
     if (it->type == type) {
       it->used = true;
       return &*it;
@@ -182,7 +182,7 @@ std::span<const int32_t> Parameters::integers(std::string_view name,
 const Parameter* Parameters::texture(std::string_view name) {
   known_.push_back(name);
   for (auto it = plugin_.parameters.rbegin(); it != plugin_.parameters.rend(); ++it)
-    if (it->name == name && it->type == ParameterType::kTexture) {
+    if (is(*it, name) && it->type == ParameterType::kTexture) {
       it->used = true;
       return &*it;
     }
@@ -191,12 +191,12 @@ const Parameter* Parameters::texture(std::string_view name) {
 
 bool Parameters::given(std::string_view name) const {
   return std::any_of(plugin_.parameters.begin(), plugin_.parameters.end(),
-                     [&](const Parameter& p) { return p.name == name; });
+                     [&](const Parameter& p) { return is(p, name); });
 }
 
 SourceLoc Parameters::loc(std::string_view name) const {
   for (auto it = plugin_.parameters.rbegin(); it != plugin_.parameters.rend(); ++it)
-    if (it->name == name) return it->loc;
+    if (is(*it, name)) return it->loc;
   return plugin_.loc;
 }
 
@@ -204,7 +204,7 @@ void Parameters::accept(std::initializer_list<std::string_view> names) {
   for (std::string_view name : names) {
     known_.push_back(name);
     for (const Parameter& p : plugin_.parameters)
-      if (p.name == name) p.used = true;
+      if (is(p, name)) p.used = true;
   }
 }
 
@@ -227,7 +227,8 @@ void Parameters::report_unused() {
     if (p.used) continue;
     p.used = true;
     // A texture nobody could take is a parameter of the wrong type, not an unknown name.
-    const bool known = std::find(known_.begin(), known_.end(), p.name) != known_.end();
+    const bool known = std::any_of(known_.begin(), known_.end(),
+                                   [&](std::string_view name) { return is(p, name); });
     if (p.type == ParameterType::kTexture && known)
       diagnostics_.warning(p.loc, fmt::format("parameter \"{}\" of {} cannot be a texture: the "
                                               "default is used",

@@ -65,6 +65,9 @@ class Parameters {
 
  private:
   const Parameter* find(std::string_view name, ParameterType type);
+  bool is(const Parameter& parameter, std::string_view name) const {
+    return parameter.name == name || (plugin_.any_case && same_but_case(parameter.name, name));
+  }
   void warn_converted(const Parameter& parameter, ParameterType wanted, std::string_view how);
   void warn_unusable(const Parameter& parameter, ParameterType wanted);
   void warn_count(const Parameter& parameter, size_t count, size_t wanted);

@@ -81,8 +81,9 @@ void parse(Lexer& lexer, Description& description, Diagnostics& diagnostics, boo
 
 }  // namespace
 
-Description read_scene(const std::string& path, Diagnostics& diagnostics) {
+Description read_scene(const std::string& path, Diagnostics& diagnostics, Dialect dialect) {
   Description description;
+  description.dialect = dialect;
   description.file = path;
   description.directory = std::filesystem::path(path).parent_path().string();
   Lexer lexer(diagnostics, description.directory, true);
@@ -92,8 +93,10 @@ Description read_scene(const std::string& path, Diagnostics& diagnostics) {
 }
 
 Description parse_scene(std::string_view text, const std::string& name,
-                        const std::string& directory, Diagnostics& diagnostics, bool may_include) {
+                        const std::string& directory, Diagnostics& diagnostics, bool may_include,
+                        Dialect dialect) {
   Description description;
+  description.dialect = dialect;
   description.file = name;
   description.directory = directory;
   Lexer lexer(diagnostics, directory, may_include);

@@ -9,6 +9,13 @@ const ScopedNames::Entry* ScopedNames::find(std::string_view name) const {
   return found == names_.end() ? nullptr : &found->second;
 }
 
+const ScopedNames::Entry* ScopedNames::find_any_case(std::string_view name) const {
+  if (const Entry* exact = find(name)) return exact;
+  for (const auto& [known, entry] : names_)
+    if (same_but_case(known, name)) return &entry;
+  return nullptr;
+}
+
 void ScopedNames::define(std::string_view name, Entry entry) {
   const auto [at, is_new] = names_.try_emplace(std::string(name), entry);
   log_.push_back({at->first, is_new ? std::nullopt : std::optional<Entry>(at->second)});

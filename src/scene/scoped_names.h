@@ -22,6 +22,8 @@ class ScopedNames {
 
   /// The visible definition, or nullptr. Valid until the next change.
   const Entry* find(std::string_view name) const;
+  /// The same; if there is none, the first in alphabetical order that differs in case only.
+  const Entry* find_any_case(std::string_view name) const;
   /// A later definition hides an earlier one.
   void define(std::string_view name, Entry entry);
 

@@ -56,6 +56,17 @@ std::optional<Matrix> rotation(double degrees, double x, double y, double z) {
   return m;
 }
 
+std::optional<Matrix> yart_rotation(double degrees, double x, double y, double z) {
+  const double axis[3] = {x, y, z};
+  std::optional<Matrix> turned;
+  for (int k = 0; k < 3; ++k) {
+    if (!(std::abs(std::trunc(axis[k])) >= 1)) continue;
+    const Matrix turn = *rotation(degrees, k == 0, k == 1, k == 2);
+    turned = turned ? turn * *turned : turn;
+  }
+  return turned;
+}
+
 LookAtResult look_at(std::span<const double, 9> n) {
   LookAtResult result;
   const glm::dvec3 eye(n[0], n[1], n[2]), look(n[3], n[4], n[5]), up(n[6], n[7], n[8]);

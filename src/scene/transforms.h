@@ -13,6 +13,9 @@ Matrix translation(double x, double y, double z);
 Matrix scaling(double x, double y, double z);
 /// About the axis, right-handed. Nothing if the axis has no direction.
 std::optional<Matrix> rotation(double degrees, double x, double y, double z);
+/// YART's Rotate: components are cut to integers; for each that is not 0 a turn by +degrees about
+/// its axis, x first, then y, then z (lxs 12.2). Nothing if all are 0.
+std::optional<Matrix> yart_rotation(double degrees, double x, double y, double z);
 
 struct LookAtResult {
   Matrix world_to_camera;  ///< camera: +x right, +y up, +z viewing direction

@@ -11,13 +11,15 @@
 namespace yat {
 namespace {
 
-bool is_one_of(std::string_view name, std::span<const std::string_view> names) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+bool is_one_of(std::string_view name, std::span<const std::string_view> names, bool any_case) {
+  return std::any_of(names.begin(), names.end(), [&](std::string_view known) {
+    return known == name || (any_case && same_but_case(known, name));
+  });
 }
 
 /// The kind of texture that a parameter of this name asks for. Kinds are separate name spaces, so
 /// the same name may stand for three textures. `otherwise`: in a Texture, what it is itself.
-TextureKind wanted_kind(std::string_view parameter, TextureKind otherwise) {
+TextureKind wanted_kind(std::string_view parameter, TextureKind otherwise, bool any_case) {
   static constexpr std::string_view kFloat[] = {"amount",
                                                 "backface_d",
                                                 "backface_index",
@@ -58,8 +60,8 @@ TextureKind wanted_kind(std::string_view parameter, TextureKind otherwise) {
                                                 "repeat_u"};
   static constexpr std::string_view kColor[] = {"Ka", "Kd",  "Kr",  "Ks", "Kt",
                                                 "L",  "Ks1", "Ks2", "Ks3"};
-  if (is_one_of(parameter, kFloat)) return TextureKind::kFloat;
-  if (is_one_of(parameter, kColor)) return TextureKind::kColor;
+  if (is_one_of(parameter, kFloat, any_case)) return TextureKind::kFloat;
+  if (is_one_of(parameter, kColor, any_case)) return TextureKind::kColor;
   if (parameter == "fresnel") return TextureKind::kFresnel;
   return otherwise;
 }
@@ -70,18 +72,23 @@ uint32_t row_count(size_t n) {
 
 }  // namespace
 
+const ScopedNames::Entry* SceneBuilder::look_up(const ScopedNames& names,
+                                                std::string_view name) const {
+  return by_yart() ? names.find_any_case(name) : names.find(name);
+}
+
 void SceneBuilder::resolve_textures(std::vector<Parameter>& parameters, TextureKind otherwise) {
   for (Parameter& parameter : parameters)
     if (parameter.type == ParameterType::kTexture)
-      resolve_texture(parameter, wanted_kind(parameter.name, otherwise));
+      resolve_texture(parameter, wanted_kind(parameter.name, otherwise, by_yart()));
 }
 
 void SceneBuilder::resolve_texture(Parameter& parameter, TextureKind wanted) {
   const std::string& name = parameter.strings[0];
-  const ScopedNames::Entry* found = state_.textures[size_t(wanted)].find(name);
+  const ScopedNames::Entry* found = look_up(state_.textures[size_t(wanted)], name);
   // A texture of another kind: the compiler converts it, or says that it cannot.
   for (size_t kind = 0; !found && kind < kTextureKinds; ++kind)
-    found = state_.textures[kind].find(name);
+    found = look_up(state_.textures[kind], name);
   parameter.texture = found ? found->row : kNoRow;
   if (found) return;
   std::string hint = state_.textures[size_t(wanted)].hint(name, diagnostics_);
@@ -144,15 +151,16 @@ void SceneBuilder::resolve_materials(std::string_view type, std::vector<Paramete
 void SceneBuilder::material(Statement& s) {
   resolve_textures(s.parameters, TextureKind::kColor);
   resolve_materials(s.strings[0], s.parameters);
-  state_.material = row_count(description_.materials.size());
+  state_.material = state_.lasting_material = row_count(description_.materials.size());
   description_.materials.push_back({{}, plugin(s, std::move(s.strings[0]))});
 }
 
 void SceneBuilder::make_named_material(Statement& s) {
   const std::string& name = s.strings[0];
   std::string type = "matte";
-  const auto given = std::find_if(s.parameters.begin(), s.parameters.end(), [](auto& p) {
-    return p.type == ParameterType::kString && p.name == "type";
+  const auto given = std::find_if(s.parameters.begin(), s.parameters.end(), [&](auto& p) {
+    return p.type == ParameterType::kString &&
+           (p.name == "type" || (by_yart() && same_but_case(p.name, "type")));
   });
   if (given != s.parameters.end()) {
     type = given->strings[0];
@@ -173,8 +181,8 @@ void SceneBuilder::make_named_material(Statement& s) {
 
 void SceneBuilder::named_material(Statement& s) {
   const std::string& name = s.strings[0];
-  if (const auto* found = state_.materials.find(name)) {
-    state_.material = found->row;
+  if (const auto* found = look_up(state_.materials, name)) {
+    state_.material = state_.lasting_material = found->row;
     return;
   }
   diagnostics_.error(s.loc, fmt::format("no material {}{}, the current one stays", quote(name),
@@ -223,6 +231,7 @@ void SceneBuilder::area_light_source(Statement& s) {
 
 void SceneBuilder::shape(Statement& s) {
   resolve_textures(s.parameters, TextureKind::kColor);
+  hint_at_types(s, s.strings[0]);
   ShapeEntry entry;
   entry.plugin = plugin(s, std::move(s.strings[0]));
   entry.to_world = state_.ctm;
@@ -233,6 +242,16 @@ void SceneBuilder::shape(Statement& s) {
   entry.interior = state_.interior;
   entry.exterior = state_.exterior;
   description_.shapes.push_back(std::move(entry));
+  if (by_yart()) use_up(s);
+}
+
+/// YART: the material and the lamp are for one shape.
+void SceneBuilder::use_up(const Statement& shape) {
+  if (state_.material == kNoRow && state_.lasting_material != kNoRow)
+    hint(shape.loc, "material",
+         "the material before this shape was used up by an earlier shape, so this one has YART's "
+         "default matte: LuxRender keeps a material until the next (--compat luxrender)");
+  state_.material = state_.area_light = kNoRow;
 }
 
 void SceneBuilder::portal(Statement& s) {
@@ -245,6 +264,7 @@ void SceneBuilder::object_begin(Statement& s) {
   const std::string& name = s.strings[0];
   const uint32_t outer = state_.object;
   state_.begin_block(BlockKind::kObject, s.loc);
+  if (by_yart()) return;  // its shapes are drawn where they are
   if (outer != kNoRow) {
     // The block is kept, so that its ObjectEnd ends it and not the outer one.
     diagnostics_.error(s.loc, fmt::format("object {} begins inside object {}, its shapes go to the "
@@ -268,6 +288,16 @@ void SceneBuilder::object_end(Statement& s) {
 }
 
 void SceneBuilder::place_instance(const Statement& s, std::string_view name) {
+  if (by_yart()) {
+    diagnostics_.error(s.loc,
+                       fmt::format("{} is ignored: YART has no instances, and draws the shapes of "
+                                   "an object where it is defined",
+                                   s.directive),
+                       s.directive);
+    hint(s.loc, "instance",
+         "the scene has instances, which YART does not know (--compat luxrender)");
+    return;
+  }
   if (state_.object != kNoRow) {
     diagnostics_.error(
         s.loc, fmt::format("{} inside object {} is ignored, end the object before", s.directive,

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <iterator>
 #include <stdexcept>
 
+#include "kernels/strata.h"
 #include "wavefront/stages.h"
 
 namespace yat {
@@ -16,7 +19,11 @@ constexpr std::string_view kGeometryNames[] = {"triangle_flat", "triangle_vertex
                                                "plane"};
 constexpr std::string_view kLightNames[] = {"triangle", "sphere", "point",
                                             "distant",  "mixed",  "any"};
-constexpr std::string_view kSamplerNames[] = {"independent", "sobol"};
+constexpr std::string_view kSamplerNames[] = {"independent", "sobol",         "regular", "jittered",
+                                              "nrooks",      "multijittered", "cmj"};
+constexpr std::string_view kCameraNames[] = {"pinhole",      "thin lens",   "polygon lens",
+                                             "orthographic", "environment", "fisheye"};
+static_assert(std::size(kCameraNames) == uint32_t(CameraKind::kCount));
 static_assert(std::size(kGeometryNames) == uint32_t(GeometryKind::kCount));
 static_assert(std::size(kLightNames) == kLightKernels);
 static_assert(std::size(kSamplerNames) == uint32_t(SamplerKind::kCount));
@@ -36,7 +43,7 @@ void need_material(const ShadePlan& plan, const KernelTable& k) {
 void need_kernels(const Plan& plan) {
   const KernelTable& k = *plan.kernels;
   need(k.draw[uint32_t(plan.sampler)], k, "draw");
-  need(k.generate_camera_rays[plan.thin_lens], k, "generate_camera_rays");
+  need(k.generate_camera_rays[uint32_t(plan.camera)], k, "generate_camera_rays");
   if (plan.triangles) {
     need(k.traversal_scratch_bytes, k, "traversal_scratch_bytes");
     need(k.intersect_closest && k.intersect_tiles, k, "intersect_closest");
@@ -108,6 +115,13 @@ ShadePlan plan_material(const Scene& scene, const MaterialForm& form, bool roule
 
 }  // namespace
 
+std::string_view camera_kind_name(CameraKind kind) {
+  return kCameraNames[uint32_t(kind)];
+}
+std::string_view sampler_kind_name(SamplerKind kind) {
+  return kSamplerNames[uint32_t(kind)];
+}
+
 Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions& options) {
   Plan plan;
   plan.kernels = &kernels;
@@ -116,7 +130,14 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
   if (options.integrator == Integrator::kDirect)
     plan.transport.least_depth_after_scatter = options.max_depth;
   plan.transport.seed = options.seed;
-  plan.thin_lens = scene.thin_lens;
+  plan.camera = scene.camera_kind;
+  const uint32_t set = std::clamp(options.sample_set, 1u, kLargestSet);
+  plan.set_columns = uint32_t(std::sqrt(double(set)));
+  plan.set_rows = set / plan.set_columns;
+  if (plan.sampler == SamplerKind::kNRooks) {
+    plan.set_columns = set;
+    plan.set_rows = 1;
+  }
   plan.triangles = scene.triangles.size() > 0;
   plan.spheres = scene.spheres.size() > 0;
   plan.planes = scene.planes.size() > 0;
@@ -181,7 +202,7 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   text += fmt::format("stages ({}, {} lanes)\n", plan.kernels->isa, plan.kernels->lanes);
   line(Stage::kGenerate,
        fmt::format("generate_camera_rays ({}), {} numbers: {} x {} pixels",
-                   plan.thin_lens ? "thin lens" : "pinhole", kSamplerNames[uint32_t(plan.sampler)],
+                   camera_kind_name(plan.camera), kSamplerNames[uint32_t(plan.sampler)],
                    scene.film.crop_width(), scene.film.crop_height()));
   if (plan.triangles)
     line(Stage::kIntersect,
@@ -248,7 +269,7 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   skipped(plan.spheres, "intersect_spheres", "no sphere in the scene");
   skipped(plan.planes, "intersect_planes", "no plane in the scene");
   skipped(plan.instances, "intersect_instances", "no object is stored once for its instances");
-  skipped(plan.thin_lens, "draw lens", "the camera is a pinhole");
+  skipped(has_lens(plan.camera), "draw lens", "the camera has no lens");
   skipped(plan.veils, "veils", "no surface lets a part of the light pass");
   skipped(plan.shadow_mask || !plan.lights, "intersect_shadow (masked)",
           "every triangle stops shadow rays");

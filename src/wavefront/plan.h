@@ -37,11 +37,14 @@ struct Plan {
   const KernelTable* kernels = nullptr;
   SamplerKind sampler = SamplerKind::kSobol;
   TransportOptions transport;
+  uint32_t set_columns = 8, set_rows = 8;  ///< of the stratified samplers
+  /// Key of all random numbers.
+  DrawKey draw_key() const { return {transport.seed, set_columns, set_rows}; }
   std::vector<BinPlan> bins;        ///< parallel to Scene::bins; [0] is the ended bin
   uint32_t first_lasting_bin = 1;   ///< of the scene
   std::vector<ShadePlan> children;  ///< of materials that are made of others
   uint32_t split_levels = 0;        ///< how many times over materials are made of others
-  bool thin_lens = false;
+  CameraKind camera = CameraKind::kPinhole;
   bool tangents = false;                                    ///< some bin needs dp/du
   bool triangles = false, spheres = false, planes = false;  ///< which intersect stages run
   bool instances = false;      ///< shared objects: a second level of trees, and its kernels
@@ -58,7 +61,14 @@ struct PlanOptions {
   SamplerKind sampler = SamplerKind::kSobol;
   uint32_t max_depth = 16;
   uint32_t seed = 0;
+  /// Samples of a pixel that stratified samplers spread together, at most kLargestSet. Rounded down
+  /// to a grid's product where the sampler has a grid.
+  uint32_t sample_set = 64;
 };
+
+/// "thin lens", for people.
+std::string_view camera_kind_name(CameraKind kind);
+std::string_view sampler_kind_name(SamplerKind kind);
 
 /// Throws std::logic_error when the table lacks a kernel that the scene needs.
 Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions& options);

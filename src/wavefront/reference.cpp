@@ -11,74 +11,6 @@ namespace yat {
 namespace reference {
 namespace {
 
-/// A number in one of the kFilterBins cells of a cumulative table, in [0, kFilterBins].
-struct CellPlace {
-  double place;
-  uint32_t cell;
-};
-CellPlace invert(const float* cumulative, double u) {
-  uint32_t cell = 0;
-  while (cell + 1 < kFilterBins && double(cumulative[cell + 1]) <= u) ++cell;
-  const double start = double(cumulative[cell]), end = double(cumulative[cell + 1]);
-  const double inside = end > start ? std::clamp((u - start) / (end - start), 0.0, 1.0) : 0;
-  return {cell + inside, cell};
-}
-
-/// Inverse of a cumulative distribution given by its quantiles, linear in between.
-double quantile(const float* table, double u) {
-  const double place = u * kFilterQuantiles;
-  const auto k = std::min(uint32_t(place), kFilterQuantiles - 1);
-  return double(table[k]) + (place - k) * (double(table[k + 1]) - double(table[k]));
-}
-
-struct CameraStart {
-  RaySegment ray;
-  double weight;  ///< sign of the pixel filter
-};
-
-/// lxs 3.2, with the camera as an affine map (CameraView).
-CameraStart camera_ray(const Scene& scene, const Plan& plan, uint32_t x, uint32_t y,
-                       uint32_t sample) {
-  const uint32_t pixel = y << 16 | x, seed = plan.transport.seed;
-  const SceneView view = scene.view();
-  const FilterView& filter = view.filter;
-  const auto [u, v] = random_pair(plan.sampler, seed, Dimension::kFilm, pixel, sample, 0);
-  CameraStart start{};
-  double dx = 2 * double(u) - 1, dy = 2 * double(v) - 1;
-  start.weight = 1;
-  if (filter.kind == FilterKind::kProduct) {
-    dx = quantile(filter.quantile_x, double(u));
-    dy = quantile(filter.quantile_y, double(v));
-  } else if (filter.kind == FilterKind::kTable) {
-    const CellPlace row = invert(filter.marginal, double(v));
-    const CellPlace column = invert(filter.conditional + row.cell * (kFilterBins + 1), double(u));
-    dx = column.place * 2 / kFilterBins - 1;
-    dy = row.place * 2 / kFilterBins - 1;
-    start.weight = double(filter.sign[row.cell * kFilterBins + column.cell]);
-  }
-  const auto vec = [](const float* p) { return Vec(p[0], p[1], p[2]); };
-  const CameraView& camera = view.camera;
-  const double px = x + .5 + dx * double(filter.radius_x);
-  const double py = y + .5 + dy * double(filter.radius_y);
-  Vec to = vec(camera.corner) + px * vec(camera.dx) + py * vec(camera.dy);
-  Vec from = vec(camera.origin);
-  if (plan.thin_lens) {
-    const auto [lu, lv] = random_pair(plan.sampler, seed, Dimension::kLens, pixel, sample, 0);
-    const glm::dvec2 lens = disc(double(lu), double(lv));
-    const Vec shift = lens.x * vec(camera.lens_x) + lens.y * vec(camera.lens_y);
-    // The point in focus stays where it is.
-    const Vec focus = from + double(camera.focal_distance) * to;
-    from += shift;
-    to = (focus - from) / double(camera.focal_distance);
-  }
-  // `to` is 1 along the view axis: near and far are depths.
-  const double stretch = glm::length(to);
-  start.ray.origin = from + double(camera.near_depth) * to;
-  start.ray.direction = to / stretch;
-  start.ray.t_max = (double(camera.far_depth) - double(camera.near_depth)) * stretch;
-  return start;
-}
-
 double power_heuristic(double own, double other) {
   return own * own / (own * own + other * other);
 }
@@ -97,7 +29,7 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
   const uint32_t pixel = y << 16 | x;
   uint32_t vertex = 0;
   const auto random = [&](Dimension dimension) {
-    return random_pair(plan.sampler, options.seed, dimension, pixel, sample, vertex);
+    return random_pair(plan.sampler, plan.draw_key(), dimension, pixel, sample, vertex);
   };
 
   const CameraStart start = camera_ray(scene, plan, x, y, sample);

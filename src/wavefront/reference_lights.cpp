@@ -202,7 +202,9 @@ LightPoint sample_light(const Scene& scene, const Vec& receiver, float choice, d
       pick.to = axis_a(row);
       const Vec way = pick.to - receiver;
       pick.wi = glm::normalize(way);
-      inverse_pdf = 1 / glm::dot(way, way);
+      inverse_pdf = LightKind(row.kind) == LightKind::kPoint
+                        ? 1 / (double(row.b_x) * glm::dot(way, way) + double(row.b_y))
+                        : 1 / glm::dot(way, way);
       shade = sent(scene, row, -pick.wi);
       break;
     }

@@ -31,6 +31,17 @@ struct Point {
   uint32_t parameter, light;
 };
 
+struct CameraStart {
+  RaySegment ray;
+  double weight;  ///< sign of the pixel filter; 0 where the camera sees nothing
+};
+/// The camera's ray for a sample: lxs 3.2, 3.3, 12.3.
+CameraStart camera_ray(const Scene& scene, const Plan& plan, uint32_t x, uint32_t y,
+                       uint32_t sample);
+/// The ray of raster position (px, py) through the place of the lens that (u, v) names.
+RaySegment camera_segment(const CameraView& camera, CameraKind kind, double px, double py, double u,
+                          double v);
+
 /// The nearest hit in (0, t_max], by trying every primitive.
 std::optional<Point> nearest(const Scene& scene, const RaySegment& ray);
 /// Unit, across the shading normal: along dp/du where there is one.

@@ -32,7 +32,9 @@ struct Shared {
         film(the_film),
         work(scene.film, options.first_sample, options.end_sample, options.tile_size, workers),
         batch_rows(
-            padded_rows(options.batch_rows ? options.batch_rows : default_batch_rows(scene))) {}
+            padded_rows(options.batch_rows ? options.batch_rows : default_batch_rows(scene))) {
+    if (options.tile_done) units_left.resize(work.units().size() / work.splits(), work.splits());
+  }
 
   const Scene& scene;
   const Plan& plan;
@@ -41,8 +43,9 @@ struct Shared {
   WorkList work;
   uint32_t batch_rows;
   TickScale scale;
-  std::mutex mutex;  ///< guards result, and film where units share pixels
+  std::mutex mutex;  ///< guards what follows, and film where units share pixels
   RenderResult result;
+  std::vector<uint32_t> units_left;  ///< of each tile; empty if nobody asks
 
   bool stop_wanted() const { return options.stop && options.stop->load(std::memory_order_relaxed); }
 };
@@ -67,6 +70,12 @@ void collect(Shared& shared, Worker& worker) {
   counted = {};
 }
 
+/// The unit's paths are done, or nearly. Holds the mutex.
+void unit_done(Shared& shared, const WorkUnit* unit) {
+  if (unit && shared.options.tile_done && --shared.units_left[unit->tile] == 0)
+    shared.options.tile_done();
+}
+
 /// One worker: claims units until there are none, and keeps its batch full meanwhile.
 void run_worker(Shared& shared, uint32_t index) {
   if (shared.stop_wanted()) return;
@@ -85,6 +94,7 @@ void run_worker(Shared& shared, uint32_t index) {
                 own_film ? *own_film : shared.film, own_features ? &*own_features : features);
   WorkCursor cursor;
   cursor.start(*unit);
+  const WorkUnit* ending = nullptr;  // has no path left to start; the last are under way
   for (;;) {
     // New paths come from the next unit as soon as this one has none left, while the last paths of
     // this one are still under way: batches run dry once in a render, not once in a tile.
@@ -103,6 +113,8 @@ void run_worker(Shared& shared, uint32_t index) {
           collect(shared, worker);
           if (shared.options.progress)
             shared.options.progress(shared.result.stats.paths, shared.result.stats);
+          unit_done(shared, ending);
+          ending = unit;
         }
         unit = shared.work.claim();
         if (unit) cursor.start(*unit);
@@ -118,6 +130,7 @@ void run_worker(Shared& shared, uint32_t index) {
   collect(shared, worker);
   if (shared.options.progress)
     shared.options.progress(shared.result.stats.paths, shared.result.stats);
+  unit_done(shared, ending);
   if (own_film) shared.film.merge(*own_film);
   if (own_features) features->merge(*own_features);
   shared.result.scratch_bytes += worker.bytes() + (own_film ? own_film->bytes() : 0);

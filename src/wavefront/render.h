@@ -25,6 +25,9 @@ struct RenderOptions {
       nullptr;  ///< set: start no new path, finish those under way, return
   /// Called from workers (one at a time) after each tile with the paths done so far.
   std::function<void(uint64_t paths_done, const RenderStats& so_far)> progress;
+  /// Called from workers (one at a time) for each tile about when its samples are done: when a
+  /// worker has no more paths of the next one to start, or none under way.
+  std::function<void()> tile_done;
 };
 
 struct RenderResult {

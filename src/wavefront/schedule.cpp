@@ -44,15 +44,15 @@ void Worker::generate(WorkCursor& work) {
   }
   if (features_.active()) features_.start(sums, camera.slot, n);
   const auto draw_film = kernels_.draw[uint32_t(plan_.sampler)];
-  draw_film(plan_.transport.seed, Dimension::kFilm, camera.pixel, camera.sample, nullptr,
+  draw_film(plan_.draw_key(), Dimension::kFilm, camera.pixel, camera.sample, nullptr,
             batch_.film_u.data(), batch_.film_v.data(), n);
-  if (plan_.thin_lens)
-    draw_film(plan_.transport.seed, Dimension::kLens, camera.pixel, camera.sample, nullptr,
+  if (has_lens(plan_.camera))
+    draw_film(plan_.draw_key(), Dimension::kLens, camera.pixel, camera.sample, nullptr,
               batch_.lens_u.data(), batch_.lens_v.data(), n);
-  kernels_.generate_camera_rays[plan_.thin_lens](
+  kernels_.generate_camera_rays[uint32_t(plan_.camera)](
       view_, batch_.camera.view(), batch_.film_u.data(), batch_.film_v.data(),
-      plan_.thin_lens ? batch_.lens_u.data() : nullptr,
-      plan_.thin_lens ? batch_.lens_v.data() : nullptr,
+      has_lens(plan_.camera) ? batch_.lens_u.data() : nullptr,
+      has_lens(plan_.camera) ? batch_.lens_v.data() : nullptr,
       columns_from(batch_.rays[current_].columns(), count_),
       columns_from(batch_.paths[current_].columns(), count_), n);
   count(Stage::kGenerate, n);
@@ -170,7 +170,7 @@ void Worker::shade() {
 
 void Worker::draw(Dimension dimension, const PathState<ConstColumn>& paths, float* first,
                   float* second, uint32_t n) {
-  kernels_.draw[uint32_t(plan_.sampler)](plan_.transport.seed, dimension, paths.pixel, paths.sample,
+  kernels_.draw[uint32_t(plan_.sampler)](plan_.draw_key(), dimension, paths.pixel, paths.sample,
                                          paths.depth, first, second, n);
 }
 

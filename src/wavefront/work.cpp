@@ -9,7 +9,8 @@ namespace {
 constexpr uint32_t kBlock = 8;
 /// Pixels of a block are listed by such quarters: the 16 rays of a sub-beam (traverse_tile.h).
 constexpr uint32_t kQuarter = 4;
-constexpr uint32_t kLargestTile = 256;
+/// Keeps coordinates beyond the picture's edge within 32 bits.
+constexpr uint32_t kLargestTile = 65536;
 /// Enough units that the last ones to finish are a small part of a render.
 constexpr uint32_t kUnitsPerWorker = 16;
 /// Without a need, a unit is no longer than this: some 50 ms of work.
@@ -42,14 +43,17 @@ WorkList::WorkList(const FilmSettings& film, uint32_t first_sample, uint32_t end
   const uint32_t splits = workers == 1 || tiles >= enough
                               ? 1
                               : uint32_t(std::min<uint64_t>(samples, (enough + tiles - 1) / tiles));
+  splits_ = splits;
   shares_pixels_ = splits > 1;
+  uint32_t number = 0;
   units_.reserve(tiles * splits);
   for (uint32_t y = film.crop_y0; y < film.crop_y1; y += tile)
-    for (uint32_t x = film.crop_x0; x < film.crop_x1; x += tile)
+    for (uint32_t x = film.crop_x0; x < film.crop_x1; x += tile, ++number)
       for (uint32_t split = 0; split < splits; ++split)
         units_.push_back({x, y, std::min(x + tile, film.crop_x1), std::min(y + tile, film.crop_y1),
                           first_sample + uint32_t(uint64_t(samples) * split / splits),
-                          first_sample + uint32_t(uint64_t(samples) * (split + 1) / splits)});
+                          first_sample + uint32_t(uint64_t(samples) * (split + 1) / splits),
+                          number});
 }
 
 void WorkCursor::start(const WorkUnit& unit) {

@@ -19,6 +19,7 @@ namespace yat {
 struct WorkUnit {
   uint32_t x0, y0, x1, y1;
   uint32_t first_sample, end_sample;
+  uint32_t tile;  ///< its number among the tiles
   uint64_t paths() const { return uint64_t(x1 - x0) * (y1 - y0) * (end_sample - first_sample); }
 };
 
@@ -36,6 +37,8 @@ class WorkList {
     return i < units_.size() ? &units_[i] : nullptr;
   }
   const std::vector<WorkUnit>& units() const { return units_; }
+  /// Units of each tile.
+  uint32_t splits() const { return splits_; }
   /// Whether two units have pixels in common: then each worker needs a film of its own.
   bool shares_pixels() const { return shares_pixels_; }
 
@@ -43,6 +46,7 @@ class WorkList {
   std::vector<WorkUnit> units_;
   std::atomic<size_t> next_{0};
   bool shares_pixels_ = false;
+  uint32_t splits_ = 1;
 };
 
 /// Lists the paths of a unit.
