@@ -175,6 +175,61 @@ TEST_F(CompileOptionsTest, FilmIsRead) {
   EXPECT_SILENT();
 }
 
+TEST_F(CompileOptionsTest, FilmSaysWhichFilesAreWrittenAndHow) {
+  // LuxRender's default.
+  film({});
+  Scene scene = compile();
+  ASSERT_EQ(scene.film.files.size(), 1u);
+  EXPECT_EQ(scene.film.files[0].extension, ".png");
+  EXPECT_FALSE(scene.film.files[0].deep);
+  const auto flag = [](std::string name, std::string value) {
+    return text(std::move(name), std::move(value), ParameterType::kBool);
+  };
+  film({flag("write_png", "false"), flag("write_png_16bit", "true"), flag("write_tga", "true"),
+        text("write_tga_channels", "YA"), flag("write_exr", "true"),
+        flag("write_exr_halftype", "false"), flag("write_exr_applyimaging", "false"),
+        text("write_exr_compressiontype", "None"), flag("write_exr_ZBuf", "false")});
+  scene = compile();
+  ASSERT_EQ(scene.film.files.size(), 2u);
+  EXPECT_EQ(scene.film.files[0].extension, ".tga");
+  EXPECT_EQ(scene.film.files[0].channels, PictureFile::Channels::kYA);
+  EXPECT_EQ(scene.film.files[1].extension, ".exr");
+  EXPECT_FALSE(scene.film.files[1].half);
+  EXPECT_FALSE(scene.film.files[1].tone_mapped);
+  EXPECT_EQ(scene.film.files[1].compression, "none");
+  EXPECT_SILENT();
+}
+
+TEST_F(CompileOptionsTest, FalseColorsAreRead) {
+  film({text("tonemapkernel", "falsecolors"), text("false_method", "log3"),
+        text("false_colorscale", "lmk"), number("false_min", .5f), number("false_max", 80)});
+  const FilmSettings f = compile().film;
+  EXPECT_EQ(f.tone_map, ToneMap::kFalseColors);
+  EXPECT_EQ(f.false_method, FalseColorMethod::kLog3);
+  EXPECT_EQ(f.false_scale, FalseColorScale::kLmk);
+  EXPECT_EQ(f.false_min, .5f);
+  EXPECT_EQ(f.false_max, 80);
+  EXPECT_SILENT();
+}
+
+TEST_F(CompileOptionsTest, SamplersAreWhatIsNearest) {
+  const auto sampler = [&](const char* type) {
+    description.sampler = plugin(type, {}, 12);
+    return compile().sampler;
+  };
+  EXPECT_EQ(sampler("metropolis"), SamplerKind::kSobol);
+  EXPECT_SAID(
+      "scene.lxs:12:1: note: Sampler \"metropolis\": yat's nearest is \"sobol\" (--sampler)");
+  EXPECT_EQ(sampler("random"), SamplerKind::kIndependent);
+  EXPECT_EQ(sampler("cmj"), SamplerKind::kCorrelatedMultiJittered);
+  EXPECT_EQ(sampler("nrook"), SamplerKind::kSobol);
+  EXPECT_SAID(
+      "scene.lxs:12:1: warning: unknown Sampler \"nrook\" (did you mean \"nrooks\"?): \"sobol\" is "
+      "used");
+  description.dialect = Dialect::kYart;
+  EXPECT_EQ(sampler("random"), SamplerKind::kSobol);
+}
+
 TEST_F(CompileOptionsTest, OptionsOverrideTheFilm) {
   options.width = 320;
   options.height = 200;

@@ -135,5 +135,66 @@ TEST_F(Output, KnowsItsExtensions) {
                UsageError);
 }
 
+// ---- Files as the scene's write_ flags ask -----------------------------------------------------
+
+TEST_F(Output, DeepPngHoldsSixteenBitsAndGreyHasAlphaOne) {
+  PictureFile file;
+  file.extension = ".png";
+  file.deep = true;
+  file.channels = PictureFile::Channels::kYA;
+  settings_.tone_map = ToneMap::kYartLinear;
+  settings_.gamma = 1;
+  const std::vector<float> grey(rgb_.size(), .4321f);
+  write_picture(path("deep.png"), grey, kWidth, kHeight, settings_, metadata_, {}, &file);
+  const auto in = OIIO::ImageInput::open(path("deep.png"));
+  ASSERT_TRUE(in) << OIIO::geterror();
+  EXPECT_EQ(in->spec().format, OIIO::TypeDesc::UINT16);
+  ASSERT_EQ(in->spec().nchannels, 2);
+  std::vector<uint16_t> back(size_t(kWidth) * kHeight * 2);
+  ASSERT_TRUE(in->read_image(0, 0, 0, 2, OIIO::TypeDesc::UINT16, back.data()));
+  EXPECT_NEAR(back[0], .4321 * 65535, 1.5);
+  EXPECT_EQ(back[1], 65535);
+}
+
+TEST_F(Output, TargaIsWritten) {
+  PictureFile file;
+  file.extension = ".tga";
+  file.channels = PictureFile::Channels::kRgba;
+  settings_.tone_map = ToneMap::kYartLinear;
+  settings_.gamma = 1;
+  const std::vector<float> grey(rgb_.size(), .5f);
+  write_picture(path("p.tga"), grey, kWidth, kHeight, settings_, metadata_, {}, &file);
+  const auto in = OIIO::ImageInput::open(path("p.tga"));
+  ASSERT_TRUE(in) << OIIO::geterror();
+  ASSERT_EQ(in->spec().nchannels, 4);
+  std::vector<uint8_t> back(size_t(kWidth) * kHeight * 4);
+  ASSERT_TRUE(in->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, back.data()));
+  EXPECT_EQ(back[0], 128);  // trunc(256 c)
+  EXPECT_EQ(back[3], 255);
+}
+
+TEST_F(Output, ExrIsToneMappedInHalvesWhereTheSceneSaysSo) {
+  PictureFile file;
+  file.extension = ".exr";
+  file.compression = "piz";
+  settings_.tone_map = ToneMap::kYartReinhard;
+  const std::vector<float> three(rgb_.size(), 3.f);
+  write_picture(path("t.exr"), three, kWidth, kHeight, settings_, metadata_, {}, &file);
+  auto in = OIIO::ImageInput::open(path("t.exr"));
+  ASSERT_TRUE(in) << OIIO::geterror();
+  EXPECT_EQ(in->spec().format, OIIO::TypeDesc::HALF);
+  EXPECT_EQ(in->spec().get_string_attribute("compression"), "piz");
+  std::vector<float> back(rgb_.size());
+  ASSERT_TRUE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, back.data()));
+  EXPECT_NEAR(double(back[0]), .75, 1e-3);  // without gamma
+  file.tone_mapped = file.half = false;
+  write_picture(path("l.exr"), three, kWidth, kHeight, settings_, metadata_, {}, &file);
+  in = OIIO::ImageInput::open(path("l.exr"));
+  ASSERT_TRUE(in) << OIIO::geterror();
+  EXPECT_EQ(in->spec().format, OIIO::TypeDesc::FLOAT);
+  ASSERT_TRUE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, back.data()));
+  EXPECT_EQ(back[0], 3.f);
+}
+
 }  // namespace
 }  // namespace yat

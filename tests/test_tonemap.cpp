@@ -221,5 +221,54 @@ TEST(LuxRenderPictures, AutoLinearGivesItsBytes) {
   EXPECT_LE(differing_bytes(exr, png, s), 251);
 }
 
+// ---- False colours and YART's kernels ----------------------------------------------------------
+
+TEST(FalseColors, LuminanceIsAPlaceOnTheScale) {
+  FilmSettings s = plain(ToneMap::kFalseColors);
+  s.gamma = 2.2f;  // changes nothing: scales are display colours
+  s.false_scale = FalseColorScale::kWhite;
+  s.false_min = 1;
+  s.false_max = 11;
+  // Greys of luminance 0, 1, 6, 11 and 100.
+  const std::vector<float> rgb = {0, 0, 0, 1, 1, 1, 6, 6, 6, 11, 11, 11, 100, 100, 100};
+  std::vector<float> out = tone_map(rgb, s);
+  const double linear[] = {0, 0, .5, 1, 1};
+  for (size_t i = 0; i < 5; ++i) EXPECT_NEAR(double(out[3 * i]), linear[i], 1e-5);
+  s.false_method = FalseColorMethod::kLog;
+  EXPECT_NEAR(double(tone_map(rgb, s)[6]), std::log10(5.5), 1e-5);
+  s.false_method = FalseColorMethod::kLog3;
+  EXPECT_NEAR(double(tone_map(rgb, s)[6]), std::log10(500.5) / 3, 1e-5);
+  // Without a range: that of the lit pixels, here 1 to 100, from blue to red.
+  s.false_method = FalseColorMethod::kLinear;
+  s.false_scale = FalseColorScale::kStd;
+  s.false_max = 0;
+  out = tone_map(rgb, s);
+  EXPECT_EQ((std::vector<float>{out[3], out[4], out[5]}), (std::vector<float>{0, 0, 1}));
+  EXPECT_EQ((std::vector<float>{out[12], out[13], out[14]}), (std::vector<float>{1, 0, 0}));
+}
+
+TEST(YartToneMap, LinearDividesByTheLargestChannelAboveOne) {
+  FilmSettings s;  // a film colour space that YART does not know
+  s.tone_map = ToneMap::kYartLinear;
+  const std::vector<float> out = tone_map(std::vector<float>{.5f, .25f, 1, 4, 2, 1, -1, 0, .5f}, s);
+  const double expected[] = {.5, .25, 1, 1, .5, .25, 0, 0, .5};
+  for (size_t i = 0; i < 9; ++i) EXPECT_NEAR(double(out[i]), std::pow(expected[i], 1 / 2.2), 1e-6);
+}
+
+TEST(YartToneMap, ReinhardIsByChannelAndOutOfGamutPaints) {
+  FilmSettings s;
+  s.tone_map = ToneMap::kYartReinhard;
+  const std::vector<float> rgb = {3, 1, 0, .5f, .5f, .5f};
+  std::vector<float> out = tone_map(rgb, s);
+  EXPECT_NEAR(double(out[0]), std::pow(.75, 1 / 2.2), 1e-6);
+  EXPECT_NEAR(double(out[1]), std::pow(.5, 1 / 2.2), 1e-6);
+  EXPECT_EQ(out[2], 0);
+  s.tone_map = ToneMap::kOutOfGamut;
+  s.out_of_gamut[0] = .1f, s.out_of_gamut[1] = .2f, s.out_of_gamut[2] = .3f;
+  out = tone_map(rgb, s);
+  EXPECT_EQ(out[1], .2f);  // no gamma
+  EXPECT_NEAR(double(out[3]), std::pow(.5, 1 / 2.2), 1e-6);
+}
+
 }  // namespace
 }  // namespace yat

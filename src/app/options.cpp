@@ -21,8 +21,8 @@ namespace {
 constexpr uint32_t kMostSamples = uint32_t(1) << 30;
 
 constexpr OptionText kRenderOptions[] = {
-    {"-o,--output", "FILE", "the film's filename as .png",
-     "picture to write: .png, .exr or .jpg; may be given several times"},
+    {"-o,--output", "FILE", "as the film's filename and write_ flags say",
+     "picture to write: .png, .exr, .jpg or .tga; may be given several times"},
     {"--spp", "N", "the scene's haltspp, or 64; no limit with --time",
      "samples per pixel; powers of two suit the sobol sampler"},
     {"--samples-range", "A,B", "0 to --spp",
@@ -53,8 +53,8 @@ constexpr OptionText kRenderOptions[] = {
      "tree over the triangles; auto: the fastest for them, kd: a strict kd-tree; the picture is "
      "the same"},
     {"--tonemap", "NAME", "the film's",
-     "linear, reinhard, autolinear, maxwhite, contrast, outofgamut, yart-linear or yart-reinhard; "
-     "for .png and .jpg"},
+     "linear, reinhard, autolinear, maxwhite, contrast, falsecolors, outofgamut, yart-linear or "
+     "yart-reinhard; for .png, .jpg and .tga"},
     {"--exposure", "STOPS", "0", "brighten .png and .jpg by 2^STOPS before tone mapping"},
     {"--aov", "LIST", "none",
      "feature pictures into the .exr, comma-separated: albedo, normal, geometric_normal, depth, "
@@ -108,12 +108,13 @@ constexpr std::array<std::pair<std::string_view, InstanceMode>, 3> kInstanceMode
     {{"auto", InstanceMode::kAuto},
      {"copy", InstanceMode::kCopy},
      {"share", InstanceMode::kShare}}};
-constexpr std::array<std::pair<std::string_view, ToneMap>, 8> kToneMaps = {
+constexpr std::array<std::pair<std::string_view, ToneMap>, 9> kToneMaps = {
     {{"linear", ToneMap::kLinear},
      {"reinhard", ToneMap::kReinhard},
      {"autolinear", ToneMap::kAutoLinear},
      {"maxwhite", ToneMap::kMaxWhite},
      {"contrast", ToneMap::kContrast},
+     {"falsecolors", ToneMap::kFalseColors},
      {"outofgamut", ToneMap::kOutOfGamut},
      {"yart-linear", ToneMap::kYartLinear},
      {"yart-reinhard", ToneMap::kYartReinhard}}};

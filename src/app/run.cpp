@@ -73,7 +73,8 @@ RenderReport report_of(const Arguments& arguments, const Loaded& loaded, const T
   return report;
 }
 
-void write_pictures(const RenderReport& report, const Film& film, const FeatureFilm* features) {
+void write_pictures(const Arguments& arguments, const RenderReport& report, const Film& film,
+                    const FeatureFilm* features) {
   PictureMetadata metadata;
   metadata.scene = report.scene;
   metadata.scene_hash = report.scene_hash;
@@ -88,8 +89,14 @@ void write_pictures(const RenderReport& report, const Film& film, const FeatureF
     if (features->has(Feature(f)))
       layers.push_back(
           {std::string(feature_info(Feature(f)).channels), features->resolve(Feature(f), film)});
-  for (const std::string& output : report.outputs)
-    write_picture(output, rgb, film.width(), film.height(), report.film, metadata, layers);
+  for (const std::string& output : report.outputs) {
+    // Only files that the scene asks for are written as it says; -o has its own rules.
+    const PictureFile* as_asked = nullptr;
+    for (const PictureFile& file : report.film.files)
+      if (arguments.outputs.empty() && output.ends_with(file.extension)) as_asked = &file;
+    write_picture(output, rgb, film.width(), film.height(), report.film, metadata, layers,
+                  as_asked);
+  }
 }
 
 ExitCode render_command(const Arguments& arguments, Console& console) {
@@ -103,7 +110,16 @@ ExitCode render_command(const Arguments& arguments, Console& console) {
 
   RenderReport report = report_of(arguments, loaded, pool);
   report.outputs = arguments.outputs;
-  if (report.outputs.empty()) report.outputs.push_back(report.film.filename + ".png");
+  if (report.outputs.empty()) {
+    for (const PictureFile& file : report.film.files)
+      report.outputs.push_back(report.film.filename + file.extension);
+    if (report.outputs.empty()) {
+      console.line(
+          "warning: the film writes no file (write_png, write_tga, write_exr): .png is "
+          "written");
+      report.outputs.push_back(report.film.filename + ".png");
+    }
+  }
   for (const std::string& output : report.outputs) require_writable(output);
   for (const std::string& file : {arguments.stats_file, arguments.trace_file})
     if (!file.empty()) require_writable(file);
@@ -142,7 +158,7 @@ ExitCode render_command(const Arguments& arguments, Console& console) {
     }
     // Still guarded: a second Ctrl-C ends a slow write.
     Stopwatch watch;
-    write_pictures(report, film, features ? &*features : nullptr);
+    write_pictures(arguments, report, film, features ? &*features : nullptr);
     report.time.write = watch.lap();
   }
   tell_end(console, report, diagnostics, arguments.verbosity);

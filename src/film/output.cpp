@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Format { kNone, kExr, kPng, kJpeg };
+enum class Format { kNone, kExr, kPng, kJpeg, kTga };
 
 Format format_of(std::string_view path) {
   std::string extension = fs::path(path).extension().string();
@@ -28,6 +28,7 @@ Format format_of(std::string_view path) {
                  [](unsigned char c) { return char(std::tolower(c)); });
   if (extension == ".exr") return Format::kExr;
   if (extension == ".png") return Format::kPng;
+  if (extension == ".tga") return Format::kTga;
   if (extension == ".jpg" || extension == ".jpeg") return Format::kJpeg;
   return Format::kNone;
 }
@@ -38,6 +39,8 @@ const char* writer_of(Format format) {
       return "openexr";
     case Format::kPng:
       return "png";
+    case Format::kTga:
+      return "targa";
     default:
       return "jpeg";
   }
@@ -50,6 +53,8 @@ const char* name_in_memory(Format format) {
       return "picture.exr";
     case Format::kPng:
       return "picture.png";
+    case Format::kTga:
+      return "picture.tga";
     default:
       return "picture.jpg";
   }
@@ -103,6 +108,54 @@ std::vector<unsigned char> encode(Format format, const OIIO::ImageSpec& spec, OI
   return bytes;
 }
 
+void set_primaries(OIIO::ImageSpec& spec, const FilmSettings& s) {
+  const float chromaticities[8] = {s.red[0],  s.red[1],  s.green[0], s.green[1],
+                                   s.blue[0], s.blue[1], s.white[0], s.white[1]};
+  spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), chromaticities);
+}
+
+/// RGB as the channels wanted; sets their number and names. Y is the mean that Rec.709 weighs.
+std::vector<float> in_channels(std::span<const float> rgb, PictureFile::Channels channels,
+                               OIIO::ImageSpec& spec) {
+  using Channels = PictureFile::Channels;
+  if (channels == Channels::kRgb) return {rgb.begin(), rgb.end()};
+  const bool grey = channels != Channels::kRgba, alpha = channels != Channels::kY;
+  spec.nchannels = (grey ? 1 : 3) + alpha;
+  spec.channelnames =
+      grey ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
+  if (alpha) spec.channelnames.push_back("A");
+  spec.alpha_channel = alpha ? spec.nchannels - 1 : -1;
+  std::vector<float> out;
+  out.reserve(rgb.size() / 3 * size_t(spec.nchannels));
+  for (size_t i = 0; i + 2 < rgb.size(); i += 3) {
+    if (grey)
+      out.push_back(.2126f * rgb[i] + .7152f * rgb[i + 1] + .0722f * rgb[i + 2]);
+    else
+      out.insert(out.end(), {rgb[i], rgb[i + 1], rgb[i + 2]});
+    if (alpha) out.push_back(1);
+  }
+  return out;
+}
+
+/// An EXR by the scene's write_exr flags.
+std::vector<unsigned char> encode_as_asked(std::span<const float> rgb, uint32_t width,
+                                           uint32_t height, const FilmSettings& settings,
+                                           const PictureMetadata& metadata,
+                                           const PictureFile& how) {
+  OIIO::ImageSpec spec = exr_spec(width, height, settings, {"R", "G", "B"});
+  if (how.half) spec.set_format(OIIO::TypeDesc::HALF);
+  spec.attribute("compression", how.compression);
+  std::vector<float> mapped;
+  if (how.tone_mapped) {
+    mapped = tone_map_linear(rgb, settings);
+    set_primaries(spec, settings);
+  }
+  const std::vector<float> pixels =
+      in_channels(how.tone_mapped ? std::span<const float>(mapped) : rgb, how.channels, spec);
+  describe(spec, metadata);
+  return encode(Format::kExr, spec, OIIO::TypeDesc::FLOAT, pixels.data());
+}
+
 std::vector<std::string> split_names(std::string_view names) {
   std::vector<std::string> list;
   for (size_t begin = 0; begin <= names.size();) {
@@ -149,18 +202,23 @@ bool is_picture_name(std::string_view path) {
 
 bool write_picture(const std::string& path, std::span<const float> rgb, uint32_t width,
                    uint32_t height, const FilmSettings& settings, const PictureMetadata& metadata,
-                   std::span<const PictureLayer> layers) {
+                   std::span<const PictureLayer> layers, const PictureFile* wanted) {
   const Format format = format_of(path);
   if (format == Format::kNone)
-    throw UsageError(fmt::format("{}: pictures are written as .exr, .png, .jpg or .jpeg", path));
+    throw UsageError(
+        fmt::format("{}: pictures are written as .exr, .png, .jpg, .jpeg or .tga", path));
   if (rgb.size() != size_t(width) * height * 3 || rgb.empty())
     throw ResourceError(fmt::format("error: {}: a picture of {} x {} has {} numbers, not {}", path,
                                     width, height, size_t(width) * height * 3, rgb.size()));
 
+  const PictureFile as_is;
+  const PictureFile& how = wanted ? *wanted : as_is;
   std::vector<unsigned char> file;
   bool stamped = metadata.stamp.empty();
   try {
-    if (format == Format::kExr) {
+    if (format == Format::kExr && wanted) {
+      file = encode_as_asked(rgb, width, height, settings, metadata, how);
+    } else if (format == Format::kExr) {
       std::vector<std::string> channels;
       const std::vector<float> all = with_layers(rgb, layers, channels);
       OIIO::ImageSpec spec = exr_spec(width, height, settings, channels);
@@ -169,13 +227,25 @@ bool write_picture(const std::string& path, std::span<const float> rgb, uint32_t
     } else {
       std::vector<float> display = tone_map(rgb, settings);
       if (!metadata.stamp.empty()) stamped = stamp_bar(display, width, height, metadata.stamp);
-      std::vector<uint8_t> bytes(display.size());
-      std::transform(display.begin(), display.end(), bytes.begin(),
-                     [](float c) { return uint8_t(quantise(c, 255)); });
       OIIO::ImageSpec spec(int(width), int(height), 3, OIIO::TypeDesc::UINT8);
       if (format == Format::kJpeg) spec.attribute("Compression", "jpeg:95");
+      const std::vector<float> values = in_channels(display, how.channels, spec);
       describe(spec, metadata);
-      file = encode(format, spec, OIIO::TypeDesc::UINT8, bytes.data());
+      if (how.deep) {
+        spec.set_format(OIIO::TypeDesc::UINT16);
+        std::vector<uint16_t> words(values.size());
+        std::transform(values.begin(), values.end(), words.begin(),
+                       [](float c) { return uint16_t(quantise(c, 65535)); });
+        file = encode(format, spec, OIIO::TypeDesc::UINT16, words.data());
+      } else {
+        // LuxRender's Targa files round differently (lxs 4.2, step 9).
+        const bool tga = format == Format::kTga;
+        std::vector<uint8_t> bytes(values.size());
+        std::transform(values.begin(), values.end(), bytes.begin(), [&](float c) {
+          return uint8_t(tga ? std::min(quantise(c, 256), 255u) : quantise(c, 255));
+        });
+        file = encode(format, spec, OIIO::TypeDesc::UINT8, bytes.data());
+      }
     }
   } catch (const ResourceError& e) {
     throw ResourceError(fmt::format("error: {}: cannot make the picture: {}", path, e.what()));

@@ -23,7 +23,7 @@ struct PictureMetadata {
   std::string stamp;  ///< written into .png and .jpg (stamp.h); empty: nothing
 };
 
-/// Whether the extension is one that write_picture knows (.exr .png .jpg .jpeg).
+/// Whether the extension is one that write_picture knows (.exr .png .jpg .jpeg .tga).
 bool is_picture_name(std::string_view path);
 /// Whether files of this name can hold more than the picture (.exr).
 bool keeps_features(std::string_view path);
@@ -36,9 +36,11 @@ struct PictureLayer {
 
 /// rgb: width * height * 3, linear Rec.709. layers: written into .exr only, after R, G and B.
 /// Missing folders are made. Throws ResourceError when the file cannot be written, UsageError for
-/// an unknown extension. Returns whether a stamp is there if it was wanted.
+/// an unknown extension. file: how the scene wants it; without one .exr is scene-linear Rec.709 in
+/// floats, the others RGB of 8 bits. There is no coverage: alpha is 1 everywhere. Returns whether a
+/// stamp is there if it was wanted.
 bool write_picture(const std::string& path, std::span<const float> rgb, uint32_t width,
                    uint32_t height, const FilmSettings& settings, const PictureMetadata& metadata,
-                   std::span<const PictureLayer> layers = {});
+                   std::span<const PictureLayer> layers = {}, const PictureFile* file = nullptr);
 
 }  // namespace yat

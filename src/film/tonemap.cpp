@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "film/colour.h"
+#include "film/falsecolors.h"
 #include "film/tonemap_yart.h"
 
 namespace yat {
@@ -13,7 +14,7 @@ namespace {
 /// Over the pixels with luminance > 0.
 struct Luminance {
   uint64_t lit = 0;
-  double mean = 0, log_mean = 1, largest = 0;
+  double mean = 0, log_mean = 1, least = 0, largest = 0;
 };
 
 Luminance measure(std::span<const Colour> xyz) {
@@ -25,6 +26,7 @@ Luminance measure(std::span<const Colour> xyz) {
     ++out.lit;
     sum += y;
     log_sum += std::log(std::max(y, 1e-6));
+    out.least = out.lit == 1 ? y : std::min(out.least, y);
     out.largest = std::max(out.largest, y);
   }
   if (out.lit) {
@@ -54,6 +56,7 @@ double common_factor(const Luminance& picture, const FilmSettings& s) {
     }
     case ToneMap::kReinhard:
       return 0.1 / picture.log_mean * double(s.reinhard_postscale);
+    case ToneMap::kFalseColors:
     case ToneMap::kYartLinear:
     case ToneMap::kYartReinhard:
     case ToneMap::kOutOfGamut:
@@ -108,6 +111,21 @@ void clamp_bright(Colour& c, double luminance, ClampMethod method) {
   for (double& channel : c) channel = std::clamp(channel, 0.0, 1.0);
 }
 
+/// falsecolors: without colour space, clamping and gamma.
+std::vector<float> paint_luminance(std::span<const Colour> xyz, const Luminance& picture,
+                                   const FilmSettings& settings) {
+  const bool automatic = !(settings.false_max > 0);
+  const double least = automatic ? picture.least : double(settings.false_min);
+  const double most = automatic ? picture.largest : double(settings.false_max);
+  std::vector<float> out;
+  out.reserve(xyz.size() * 3);
+  for (const Colour& c : xyz)
+    for (const double channel : false_color(
+             false_color_place(c[1], least, most, settings.false_method), settings.false_scale))
+      out.push_back(float(channel));
+  return out;
+}
+
 }  // namespace
 
 std::vector<float> tone_map(std::span<const float> rgb, const FilmSettings& settings) {
@@ -128,6 +146,7 @@ std::vector<float> tone_map(std::span<const float> rgb, const FilmSettings& sett
   }
 
   const Luminance picture = measure(xyz);
+  if (settings.tone_map == ToneMap::kFalseColors) return paint_luminance(xyz, picture, settings);
   const double factor = common_factor(picture, settings);
   const bool reinhard = settings.tone_map == ToneMap::kReinhard;
   const double burn = double(settings.reinhard_burn);
@@ -145,6 +164,14 @@ std::vector<float> tone_map(std::span<const float> rgb, const FilmSettings& sett
     for (int k = 0; k < 3; ++k)
       out[3 * i + k] = c[k] > 0 ? float(std::pow(std::min(c[k], 1.0), exponent)) : 0.f;
   }
+  return out;
+}
+
+std::vector<float> tone_map_linear(std::span<const float> rgb, FilmSettings settings) {
+  // autolinear's factor depends on gamma: it is taken out again afterwards.
+  const float gamma = settings.gamma;
+  std::vector<float> out = tone_map(rgb, settings);
+  for (float& c : out) c = std::pow(c, gamma);
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scene/compile_parts.h"
 
@@ -32,11 +33,12 @@ ToneMap tone_map_by_name(Parameters& film) {
   if (name == "reinhard") return ToneMap::kReinhard;
   if (name == "maxwhite") return ToneMap::kMaxWhite;
   if (name == "contrast") return ToneMap::kContrast;
+  if (name == "falsecolors") return ToneMap::kFalseColors;
   film.diagnostics().warning(
       film.loc("tonemapkernel"),
       fmt::format("unknown tonemapkernel \"{}\"{}: \"autolinear\" is used", name,
                   did_you_mean(name, {"autolinear", "linear", "reinhard", "maxwhite", "contrast",
-                                      "outofgamut"})));
+                                      "falsecolors", "outofgamut"})));
   return ToneMap::kAutoLinear;
 }
 
@@ -78,42 +80,90 @@ float positive(Parameters& film, std::string_view name, float fallback) {
   return fallback;
 }
 
+FalseColorScale false_scale_by_name(Parameters& film) {
+  static constexpr std::pair<std::string_view, FalseColorScale> kScales[] = {
+      {"std", FalseColorScale::kStd},       {"lmk", FalseColorScale::kLmk},
+      {"red", FalseColorScale::kRed},       {"white", FalseColorScale::kWhite},
+      {"yellow", FalseColorScale::kYellow}, {"speos", FalseColorScale::kSpeos}};
+  const std::string name = film.text("false_colorscale", "std");
+  for (const auto& [known, scale] : kScales)
+    if (name == known) return scale;
+  film.diagnostics().warning(
+      film.loc("false_colorscale"),
+      fmt::format("unknown false_colorscale \"{}\"{}: \"std\" is used", name,
+                  did_you_mean(name, {"std", "lmk", "red", "white", "yellow", "speos"})));
+  return FalseColorScale::kStd;
+}
+
+FalseColorMethod false_method_by_name(Parameters& film) {
+  const std::string name = film.text("false_method", "linear");
+  if (name == "linear") return FalseColorMethod::kLinear;
+  if (name == "log") return FalseColorMethod::kLog;
+  if (name == "log3") return FalseColorMethod::kLog3;
+  film.diagnostics().warning(film.loc("false_method"),
+                             fmt::format("unknown false_method \"{}\"{}: \"linear\" is used", name,
+                                         did_you_mean(name, {"linear", "log", "log3"})));
+  return FalseColorMethod::kLinear;
+}
+
+/// write_png, write_tga, write_exr and how: "kind" is "png", "tga" or "exr".
+void add_file(Parameters& film, const std::string& kind, bool by_default,
+              std::vector<PictureFile>& files) {
+  const std::string prefix = "write_" + kind;
+  const bool wanted = film.flag(prefix, by_default);
+  PictureFile file;
+  file.extension = "." + kind;
+  const std::string channels = film.text(prefix + "_channels", "RGB");
+  using Channels = PictureFile::Channels;
+  if (channels == "Y")
+    file.channels = Channels::kY;
+  else if (channels == "YA")
+    file.channels = Channels::kYA;
+  else if (channels == "RGBA")
+    file.channels = Channels::kRgba;
+  else if (channels != "RGB")
+    film.diagnostics().warning(
+        film.loc(prefix + "_channels"),
+        fmt::format("unknown {}_channels \"{}\": \"RGB\" is used", prefix, channels));
+  if (film.flag(prefix + "_ZBuf", false) && wanted)
+    film.diagnostics().warning(film.loc(prefix + "_ZBuf"),
+                               fmt::format("\"{}_ZBuf\": depth is not written", prefix));
+  film.accept({kind == "png"   ? "write_png_gamutclamp"
+               : kind == "tga" ? "write_tga_gamutclamp"
+                               : "write_exr_gamutclamp",
+               kind == "png"   ? "write_png_zbuf_normalizationtype"
+               : kind == "tga" ? "write_tga_zbuf_normalizationtype"
+                               : "write_exr_zbuf_normalizationtype"});
+  if (kind == "png") file.deep = film.flag("write_png_16bit", false);
+  if (kind == "exr") {
+    file.half = film.flag("write_exr_halftype", true);
+    file.tone_mapped = film.flag("write_exr_applyimaging", true);
+    const std::string name = film.text("write_exr_compressiontype", "PIZ (lossless)");
+    static constexpr std::pair<std::string_view, const char*> kTypes[] = {
+        {"RLE (lossless)", "rle"},
+        {"PIZ (lossless)", "piz"},
+        {"ZIP (lossless)", "zip"},
+        {"Pxr24 (lossy)", "pxr24"},
+        {"None", "none"}};
+    for (const auto& [known, type] : kTypes)
+      if (name == known) file.compression = type;
+    if (file.compression.empty()) {
+      file.compression = "piz";
+      film.diagnostics().warning(film.loc("write_exr_compressiontype"),
+                                 fmt::format("unknown write_exr_compressiontype \"{}\": \"PIZ "
+                                             "(lossless)\" is used",
+                                             name));
+    }
+  }
+  if (wanted) files.push_back(file);
+}
+
 /// Statements that only say where and how LuxRender writes its files.
 void accept_output_names(Parameters& film) {
-  film.accept({"premultiplyalpha",
-               "write_png",
-               "write_png_16bit",
-               "write_png_channels",
-               "write_png_gamutclamp",
-               "write_png_ZBuf",
-               "write_png_zbuf_normalizationtype",
-               "write_tga",
-               "write_tga_channels",
-               "write_tga_gamutclamp",
-               "write_tga_ZBuf",
-               "write_tga_zbuf_normalizationtype",
-               "write_exr",
-               "write_exr_channels",
-               "write_exr_halftype",
-               "write_exr_compressiontype",
-               "write_exr_applyimaging",
-               "write_exr_gamutclamp",
-               "write_exr_ZBuf",
-               "write_exr_zbuf_normalizationtype",
-               "write_exr_straightcolors",
-               "write_resume_flm",
-               "restart_resume_flm",
-               "write_flm_direct",
-               "writeinterval",
-               "flmwriteinterval",
-               "displayinterval",
-               "haltthreshold",
-               "convergencestep",
-               "outlierrejection_k",
-               "filterquality",
-               "tilecount",
-               "debug",
-               "usersamplingmap_filename"});
+  film.accept({"premultiplyalpha", "write_exr_straightcolors", "write_resume_flm",
+               "restart_resume_flm", "write_flm_direct", "writeinterval", "flmwriteinterval",
+               "displayinterval", "haltthreshold", "convergencestep", "outlierrejection_k",
+               "filterquality", "tilecount", "debug", "usersamplingmap_filename"});
 }
 
 /// Names of older versions: one warning for all of them.
@@ -160,8 +210,7 @@ void warn_effects(Parameters& film) {
                                "\"cameraresponse\": response curves are not supported");
   film.accept({"bloom_radius", "bloom_weight", "vignetting_scale", "abberation_amount",
                "glare_amount", "glare_radius", "glare_blades", "glare_threshold",
-               "glarelashesfilename", "glarepupilfilename", "false_method", "false_colorscale",
-               "false_max", "false_min"});
+               "glarelashesfilename", "glarepupilfilename"});
 }
 
 void set_crop(FilmSettings& film, const float (&crop)[4], SourceLoc loc, Diagnostics& diagnostics) {
@@ -232,6 +281,13 @@ FilmSettings compile_film(const Description& description, const CompileOptions& 
   settings.halt_spp = film.integer("haltspp", -1);
   settings.halt_time = film.integer("halttime", -1);
 
+  settings.false_scale = false_scale_by_name(film);
+  settings.false_method = false_method_by_name(film);
+  settings.false_min = film.number("false_min", 0);
+  settings.false_max = film.number("false_max", 0);
+  add_file(film, "png", true, settings.files);
+  add_file(film, "tga", false, settings.files);
+  add_file(film, "exr", false, settings.files);
   accept_output_names(film);
   warn_obsolete(film);
   warn_effects(film);

@@ -133,10 +133,10 @@ void SceneBuilder::resolve_materials(std::string_view type, std::vector<Paramete
   static constexpr std::string_view kNames[] = {
       "namedmaterial1", "namedmaterial2",     "namedmaterial3",   "namedmaterial4",
       "basematerial",   "frontnamedmaterial", "backnamedmaterial"};
-  if (!is_one_of(type, kMadeOfOthers)) return;
+  if (!is_one_of(type, kMadeOfOthers, by_yart())) return;
   for (Parameter& parameter : parameters) {
     if (parameter.type != ParameterType::kString || parameter.strings.empty() ||
-        !is_one_of(parameter.name, kNames))
+        !is_one_of(parameter.name, kNames, by_yart()))
       continue;
     const std::string& name = parameter.strings[0];
     const ScopedNames::Entry* found = state_.materials.find(name);
