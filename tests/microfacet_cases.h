@@ -200,7 +200,7 @@ inline std::vector<Case<RoughGlassParameters>> cases(RoughGlassParameters<Value>
   };
   const glm::dvec3 white(1), black(0);
   add("rough", 1.5f, .5f, .5f, white, white, 1e-3, 24);
-  add("narrow", 1.5f, .15f, .15f, white, white, 1e-3, 0);
+  add("narrow", 1.5f, .15f, .15f, white, white, 3e-3, 0);
   add("brushed", 1.33f, .3f, .5f, {1, .5, .25}, {.25, .5, 1}, 1e-3, 24);
   add("thin", 1 / 1.5f, .3f, .3f, white, white, 1e-3, 24);
   add("reflecting only", 2.5f, .3f, .3f, white, black, 4e-5, 24);

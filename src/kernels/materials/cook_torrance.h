@@ -157,9 +157,11 @@ struct CookTorranceModel {
     const Float<A> zero(0.f);
     const Facets facets = Facets::of(p);
     const Vec3<A> h = MicrofacetLobe<A>::half_vector(view.wo, wi);
+    // Of a zero without a sign, by which f is divided.
+    const Float<A> cos_o = xsimd::abs(view.wo.z);
     const Float<A> o_h = dot(view.wo, h), lit = h.z + h.z;
-    const Float<A> shadowed = xsimd::min(Float<A>(1.f) / xsimd::abs(view.wo.z * wi.z),
-                                         xsimd::min(lit / (o_h * wi.z), lit / (o_h * view.wo.z)));
+    const Float<A> shadowed = xsimd::min(Float<A>(1.f) / (cos_o * xsimd::abs(wi.z)),
+                                         xsimd::min(lit / (o_h * wi.z), lit / (o_h * cos_o)));
     Spectrum<A> f = (Float<A>(.25f) * facets.distribution(h) * shadowed) * fresnel(p, o_h);
     if constexpr (kCompensated) {
       const Compensation more = Compensation::of(p, facets.m, view.wo.z);
@@ -206,7 +208,7 @@ struct CookTorranceModel {
     s.wi = (o_h + o_h) * h - wo;
     s.pdf = facets.pdf(wo, h, o_h);
     // G over masking of wo alone; F.
-    const Float<A> lit = h.z + h.z, masked = xsimd::min(o_h, lit * wo.z);
+    const Float<A> lit = h.z + h.z, masked = xsimd::min(o_h, lit * xsimd::abs(wo.z));
     const Float<A> shadowed = xsimd::min(one, lit * s.wi.z / masked);
     s.weight = shadowed * fresnel(p, o_h);
     if constexpr (kCompensated) {
