@@ -61,6 +61,36 @@ void add_emission_benchmark(const KernelTable& table) {
   });
 }
 
+/// Rays that have scattered and all of which miss, under sun and sky.
+void add_environment_benchmark(const KernelTable& table) {
+  const auto kernel = table.add_environment;
+  if (!kernel) return add_missing("add_environment", table);
+  add_benchmark("add_environment", table, [&table, kernel](benchmark::State& state) {
+    const KernelInputs& in = inputs_for(table, kAllLights | kSkyLights);
+    const uint32_t n = in.bounce_count;
+    if (!n) return no_rows(state);
+    Table<Hit> hits(n);
+    Table<PathState> paths(n);
+    Table<SampleSum> sums(n);
+    AlignedArray<uint32_t> order(n);
+    for (uint32_t i = 0; i < n; ++i) {
+      order[i] = i;
+      Hit<Value> hit{};
+      hit.prim = kNone;
+      hits.set(i, hit);
+      PathState<Value> path{};
+      path.throughput_r = path.throughput_g = path.throughput_b = path.pdf = .5f;
+      path.slot = i;
+      paths.set(i, path);
+    }
+    DropLog drops;
+    time_rows(state, n, [&] {
+      kernel(in.view, order.data(), in.bounce_rays.view(), hits.view(), paths.view(),
+             in.plan.transport, sums.columns(), drops, n);
+    });
+  });
+}
+
 void add_lights(const KernelTable& table) {
   for (uint32_t kind = 0; kind < kLightKernels; ++kind) {
     const std::string name = std::string("sample_lights/") + kLightNames[kind];
@@ -178,6 +208,7 @@ struct BsdfRows {
 void add_shading_benchmarks(const KernelTable& table) {
   add_surfaces(table);
   add_emission_benchmark(table);
+  add_environment_benchmark(table);
   add_lights(table);
   add_shade(table);
   add_accumulate(table);

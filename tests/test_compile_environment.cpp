@@ -77,7 +77,6 @@ TEST_F(CompileEnvironment, SunAndSky) {
   EXPECT_EQ(scene.skies.size(), 1u);
   EXPECT_EQ(scene.light_maps.size(), 1u);
   EXPECT_TRUE(scene.light_texels.empty()) << "the formula needs no picture";
-  EXPECT_EQ(scene.light_search_step, 256u);
   EXPECT_GT(sky.extra, 1000);
   EXPECT_SILENT();
 }
@@ -134,10 +133,10 @@ TEST(LightCells, CoverWhatShinesAndAllElseALittle) {
   LightTables tables;
   LightMapRow<Value> map{};
   add_cells(cells, tables, map);
-  ASSERT_EQ(tables.cells.size(), 3u + 2 * 5);
+  ASSERT_EQ(tables.cells.size(), 5u + 2 * 7);
   EXPECT_EQ(tables.cells[0], 0);
   EXPECT_EQ(tables.cells[2], 1);
-  const float* top = tables.cells.data() + 3;
+  const float* top = tables.cells.data() + 5;
   EXPECT_EQ(top[4], 1);
   EXPECT_NEAR(double(tables.cells[1]), 1 - .5 / kEvenShare, 1e-6);
   // One in kEvenShare is drawn evenly, an eighth of those in each cell.
@@ -145,6 +144,29 @@ TEST(LightCells, CoverWhatShinesAndAllElseALittle) {
   EXPECT_NEAR(double(top[3] - top[2]) * double(tables.cells[1]), wanted, 1e-6);
   for (int i = 0; i < 4; ++i) EXPECT_GT(top[i + 1], top[i]);
   EXPECT_NEAR(cells.average(), 12.5, 1e-12);
+}
+
+// Each guide is the last cell that starts at or below its share of the way.
+TEST(LightCells, GuidesPointAtTheirCells) {
+  CellMeans cells{64, 32, std::vector<double>(64 * 32, 1.)};
+  for (uint32_t i = 0; i < cells.mean.size(); i += 7) cells.mean[i] = i % 5 ? 0 : 300;
+  LightTables tables;
+  LightMapRow<Value> map{};
+  add_cells(cells, tables, map);
+  const float* list = tables.cells.data();
+  for (uint32_t row = 0; row <= map.rows; ++row) {
+    const uint32_t count = row ? map.columns : map.rows, guides = cell_guides(count);
+    for (uint32_t k = 0; k <= guides; ++k) {
+      const auto cell = uint32_t(list[count + 1 + k]);
+      ASSERT_LT(cell, count);
+      EXPECT_LE(list[cell], float(k) / float(guides));
+      if (cell + 1 < count) {
+        EXPECT_GT(list[cell + 1], float(k) / float(guides));
+      }
+    }
+    list += cell_list_words(count);
+  }
+  EXPECT_EQ(list, tables.cells.data() + tables.cells.size());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "kernels/accumulate.h"
 #include "kernels/drop.h"
+#include "kernels/light_choice.h"
 #include "kernels/lights/sphere.h"
 #include "kernels/lights/triangle.h"
 
@@ -36,7 +37,7 @@ void add_emission(const SceneView& scene, const Surface<ConstColumn>& surfaces,
     Float<A> sampled = TriangleLight<A>::pdf(row, receiver, seen);
     if (any<A>(sphere & shining))
       sampled = select<A>(sphere, SphereLight<A>::pdf(row, receiver, seen), sampled);
-    sampled = sampled * row.probability;
+    sampled = sampled * chance_of_light<A>(row);
     const Float<A> weight =
         select<A>(scattered == zero, one, power_heuristic<A>(scattered, sampled));
 

@@ -3,6 +3,7 @@
 
 #include "kernels/accumulate.h"
 #include "kernels/drop.h"
+#include "kernels/light_choice.h"
 #include "kernels/lights/constant.h"
 #include "kernels/lights/image.h"
 #include "kernels/lights/sky.h"
@@ -61,8 +62,8 @@ void add_environment(const SceneView& scene, const uint32_t* order, const Ray<Co
       const auto kind =
           LightKind(lights.rows.words[size_t(light) * row_words<LightRow> + kLightKindWord]);
       const SeenEnvironment<A> seen = see_environment<A>(lights, kind, row, missed, w);
-      const Float<A> weight = select<A>(path.pdf == zero, one,
-                                        power_heuristic<A>(path.pdf, seen.pdf * row.probability));
+      const Float<A> weight = select<A>(
+          path.pdf == zero, one, power_heuristic<A>(path.pdf, seen.pdf * chance_of_light<A>(row)));
       r = r + weight * row.radiance_r * seen.shade.r;
       g = g + weight * row.radiance_g * seen.shade.g;
       b = b + weight * row.radiance_b * seen.shade.b;

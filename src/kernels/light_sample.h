@@ -1,6 +1,7 @@
 #pragma once
 // One light and a point on it for every surface.
 
+#include "kernels/light_choice.h"
 #include "kernels/lights/constant.h"
 #include "kernels/lights/distant.h"
 #include "kernels/lights/image.h"
@@ -43,23 +44,11 @@ struct LightOfKind<A, LightKind::kSun> : SunLight<A> {};
 template <class A>
 struct LightOfKind<A, LightKind::kSky> : SkyLight<A> {};
 
-/// Alias method (Walker 1977, Vose 1991): one number chooses the interval and, by where in it the
-/// number lies, the interval's own row or the other one.
-template <class A>
-YAT_INLINE UInt<A> choose_light(const LightView& lights, const Float<A>& u) {
-  const Float<A> place = u * Float<A>(float(lights.rows.count));
-  const Int<A> interval = xsimd::to_int(place);
-  const UInt<A> row =
-      xsimd::min(xsimd::bitwise_cast<uint32_t>(interval), UInt<A>(lights.rows.count - 1));
-  const LightChoice<Lanes<A>::template Of> choice = gather<A>(lights.choice, row);
-  return select<A>(place - xsimd::to_float(interval) < choice.threshold, row, choice.other);
-}
-
 /// The choice and the numbers of a row, for the kinds.
 template <class A>
 struct LightQuery {
   const LightView& lights;
-  LightRowW<A> row;
+  const LightRowW<A>& row;
   Vec3<A> receiver;
   Float<A> far, u, v;
 };
@@ -109,11 +98,10 @@ void sample_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
   const LightView& lights = scene.lights;
   const bool one_light = lights.rows.count == 1;
   const Float<A> zero(0.f), one(1.f);
-  LightRowW<A> only_row;
-  if (one_light) only_row = broadcast<A>(lights.rows, 0);
+  LightRowW<A> row;
+  if (one_light) row = broadcast<A>(lights.rows, 0);
   for (uint32_t i = 0; i < n; i += kLanes<A>) {
     const Mask<A> active = tail_mask<A>(i, n);
-    LightRowW<A> row = only_row;
     // Padding may hold anything: as an index, only a number that was drawn is safe.
     if (!one_light) {
       const Float<A> choice = only<A>(active, load<A>(randoms.light_choice, i));
@@ -123,13 +111,13 @@ void sample_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
                            load<A>(surfaces.pos_z, i)};
     const Float<A> far =
         Float<A>(kFarSizes) * xsimd::max(Float<A>(scene.radius), largest_magnitude(receiver));
-    // The same for numbers: tables are searched with them.
-    const LightQuery<A> query{lights,
-                              row,
-                              receiver,
-                              far,
-                              only<A>(active, load<A>(randoms.light_u, i)),
-                              only<A>(active, load<A>(randoms.light_v, i))};
+    Float<A> u = load<A>(randoms.light_u, i), v = load<A>(randoms.light_v, i);
+    if constexpr (kKernel == kAnyLights) {
+      // Tables are searched with these.
+      u = only<A>(active, u);
+      v = only<A>(active, v);
+    }
+    const LightQuery<A> query{lights, row, receiver, far, u, v};
     ShadedPick<A> pick;
     if constexpr (kKernel >= kPlainLights) {
       pick.wi = {zero, zero, one};
@@ -138,7 +126,7 @@ void sample_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
       pick_plain_kinds<A>(query, pick);
     } else {
       static_cast<LightPick<A>&>(pick) =
-          LightOfKind<A, LightKind(kKernel)>::sample(row, receiver, far, query.u, query.v);
+          LightOfKind<A, LightKind(kKernel)>::sample(row, receiver, far, u, v);
     }
     if constexpr (kKernel == kAnyLights) {
       pick_shaded_kind<A, LightKind::kSpot>(query, pick);
@@ -149,7 +137,8 @@ void sample_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
       pick_shaded_kind<A, LightKind::kSun>(query, pick);
       pick_shaded_kind<A, LightKind::kSky>(query, pick);
     }
-    const Float<A> weight = pick.measure / row.probability;
+    const Float<A> chance = chance_of_light<A>(row);
+    const Float<A> weight = pick.measure / chance;
     LightSample<Lanes<A>::template Of> out;
     out.wi_x = pick.wi.x;
     out.wi_y = pick.wi.y;
@@ -165,7 +154,7 @@ void sample_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
       out.weight_g = out.weight_g * pick.shade.g;
       out.weight_b = out.weight_b * pick.shade.b;
     }
-    out.pdf = pick.pdf * row.probability;
+    out.pdf = pick.pdf * chance;
     store<A>(out, samples, i);
   }
 }

@@ -199,7 +199,6 @@ SceneView Scene::view() const {
   view.lights.skies = skies.view();
   view.lights.texels = light_texels.data();
   view.lights.cells = light_cells.data();
-  view.lights.search_step = light_search_step;
   view.lights.basis = colour.light;
   view.camera = camera;
   view.filter = filter;

@@ -127,7 +127,6 @@ struct Scene {
   uint32_t first_lasting_bin = 1;
   uint32_t light_kinds = 0;
   uint32_t first_environment = 0;  ///< row of lights: from there on rays that miss find them
-  uint32_t light_search_step = 0;
   bool all_occlude = true;
   CameraKind camera_kind = CameraKind::kPinhole;
   bool autofocus = false;  ///< focus_camera() (wavefront/focus.h) has to be called

@@ -250,12 +250,7 @@ void finish_lights(std::vector<LightRow<Value>> rows, const LightTables& tables,
   }
 
   scene.light_maps.resize(uint32_t(tables.maps.size()));
-  uint32_t most_cells = 0;
-  for (uint32_t i = 0; i < tables.maps.size(); ++i) {
-    scene.light_maps.set(i, tables.maps[i]);
-    most_cells = std::max({most_cells, tables.maps[i].columns, tables.maps[i].rows});
-  }
-  scene.light_search_step = std::bit_floor(most_cells);
+  for (uint32_t i = 0; i < tables.maps.size(); ++i) scene.light_maps.set(i, tables.maps[i]);
   scene.skies.resize(uint32_t(tables.skies.size()));
   for (uint32_t i = 0; i < tables.skies.size(); ++i) scene.skies.set(i, tables.skies[i]);
   if (!tables.texels.empty()) scene.light_texels = std::span<const float>(tables.texels);

@@ -244,8 +244,10 @@ enum class MapLayout : uint32_t {
 };
 
 /// A map of a light: its place in the scene, its texels, and the cells that directions are drawn
-/// by. Cells divide the lat-long square of light space, whatever the picture's layout. Their table
-/// at LightView::cells + cells: rows + 1 cumulative values, then for each row columns + 1 of them.
+/// by. Cells divide the lat-long square of light space, whatever the picture's layout. Their lists
+/// start at LightView::cells + cells: that of the rows, then that of the columns of each row. A
+/// list of n cells has n + 1 cumulative values from 0 to 1, then cell_guides(n) + 1 guides: number
+/// k is the last cell that starts at or below k / cell_guides(n).
 template <template <class> class Of>
 struct LightMapRow {
   Of<float> m_xx, m_xy, m_xz, m_yx, m_yy, m_yz, m_zx, m_zy, m_zz;  ///< scene -> light, |det| = 1
@@ -256,6 +258,17 @@ struct LightMapRow {
              cells, columns, rows)
 };
 static_assert(all_fields_listed<LightMapRow>);
+
+/// One guide to four cells. Count: a number or a register of them.
+template <class Count>
+YAT_INLINE Count cell_guides(const Count& cells) {
+  return (cells + Count(3u)) >> 2;
+}
+/// Words of a list of cells.
+template <class Count>
+YAT_INLINE Count cell_list_words(const Count& cells) {
+  return cells + cell_guides(cells) + Count(2u);
+}
 
 /// Words of a texel in LightView::texels: three bands and one that is not used.
 inline constexpr uint32_t kTexelWords = 4;
@@ -287,8 +300,7 @@ struct LightView {
   Rows<SkyRow> skies;
   const float* texels = nullptr;  ///< kTexelWords each, rows of a map from the top
   const float* cells = nullptr;
-  uint32_t search_step = 0;  ///< largest power of two not above any count of columns or rows
-  BandBasis basis{};         ///< of lights: bands of colours that kernels compute
+  BandBasis basis{};  ///< of lights: bands of colours that kernels compute
 };
 
 // ---- Camera ----------------------------------------------------------------------------------

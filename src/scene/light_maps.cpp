@@ -209,14 +209,21 @@ void add_cells(const CellMeans& cells, LightTables& tables, LightMapRow<Value>& 
   map.rows = cells.rows;
   const double even = cells.average() / (kEvenShare - 1);
   std::vector<double> row_mass(cells.rows);
-  // Cumulative values of `count` masses, from 0 to exactly 1.
+  // A list of `count` cells: cumulative values from 0 to exactly 1, then guides.
   const auto add = [&tables](const double* mass, uint32_t count) {
     double total = 0, sum = 0;
     for (uint32_t i = 0; i < count; ++i) total += mass[i];
+    const size_t first = tables.cells.size();
     tables.cells.push_back(0);
     for (uint32_t i = 0; i < count; ++i) {
       sum += mass[i];
       tables.cells.push_back(i + 1 < count ? std::min(1.f, float(sum / total)) : 1.f);
+    }
+    const uint32_t guides = cell_guides(count);
+    for (uint32_t k = 0, cell = 0; k <= guides; ++k) {
+      const float start = float(k) / float(guides);
+      while (cell + 1 < count && tables.cells[first + cell + 1] <= start) ++cell;
+      tables.cells.push_back(float(cell));
     }
   };
   std::vector<double> mass(cells.mean.size());

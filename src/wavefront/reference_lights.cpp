@@ -94,7 +94,8 @@ double invert(const float* cumulative, uint32_t count, double u, uint32_t& cell)
 double cell_density(const Scene& scene, const LightMapRow<Value>& map, uint32_t column,
                     uint32_t row) {
   const float* rows = scene.light_cells.data() + map.cells;
-  const float* columns = rows + map.rows + 1 + size_t(row) * (map.columns + 1);
+  const float* columns =
+      rows + cell_list_words(map.rows) + size_t(row) * cell_list_words(map.columns);
   return (double(rows[row + 1]) - double(rows[row])) * map.rows *
          (double(columns[column + 1]) - double(columns[column])) * map.columns;
 }
@@ -111,7 +112,8 @@ Vec draw_by_cells(const Scene& scene, const LightMapRow<Value>& map, double u, d
   const float* rows = scene.light_cells.data() + map.cells;
   uint32_t row = 0, column = 0;
   const double t = invert(rows, map.rows, v, row) / map.rows;
-  const float* columns = rows + map.rows + 1 + size_t(row) * (map.columns + 1);
+  const float* columns =
+      rows + cell_list_words(map.rows) + size_t(row) * cell_list_words(map.columns);
   const double s = invert(columns, map.columns, u, column) / map.columns;
   const Vec l = latlong_direction(s, t);
   const glm::dmat3 to_light = map_matrix(map);

@@ -12,7 +12,7 @@ struct ImageLight {
                                          const Float<A>& far, const Float<A>& u,
                                          const Float<A>& v) {
     const LightMapW<A> map = load_map<A>(lights, row, of_kind);
-    const CellPick<A> drawn = pick_by_cells<A>(lights, map, receiver, far, u, v);
+    const CellPick<A> drawn = pick_by_cells<A>(lights, map, of_kind, receiver, far, u, v);
     return {drawn.pick, look_up<A>(lights, map, picture_place<A>(map, drawn.local))};
   }
   static YAT_INLINE SeenEnvironment<A> see(const LightView& lights, const LightRowW<A>& row,

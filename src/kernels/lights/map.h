@@ -165,46 +165,62 @@ struct CellPlace {
   Float<A> s, t, density;
 };
 
-/// Inverts cumulative values table[first ...], linear within each of `count` cells: the place in
-/// [0, count] and the mass of its cell.
+/// Inverts the cumulative values of a list of cells, linear within each: the place in [0, count]
+/// and the mass of its cell.
 template <class A>
 struct Inverted {
   UInt<A> cell;
   Float<A> place, mass;
 };
+/// table   LightView::cells; the list of `count` cells starts at `first` (LightMapRow says how).
+/// active  lanes that hold a list; the others get its first cell, whatever it is.
+/// u       in [0, 1).
+///
+/// Source  Chen, Asau, "On Generating Random Variates from an Empirical Distribution", 1974, for
+///         the guides; between two of them, halving.
 template <class A>
 YAT_INLINE Inverted<A> invert_cells(const float* table, const UInt<A>& first, const UInt<A>& count,
-                                    uint32_t search_step, const Float<A>& u) {
+                                    const Mask<A>& active, const Float<A>& u) {
   const Float<A> zero(0.f), one(1.f);
+  const UInt<A> step(1u);
+  const UInt<A> guides = cell_guides(count);
+  const UInt<A> bucket = xsimd::min(
+      xsimd::bitwise_cast<uint32_t>(xsimd::to_int(u * to_number<A>(guides))), guides - step);
+  const UInt<A> guide = only<A>(active, first + count + step + bucket);
+  const auto guided = [&](const UInt<A>& at) {
+    const Float<A> cell = only<A>(active, gather<A>(table, at));
+    return xsimd::bitwise_cast<uint32_t>(xsimd::to_int(cell));
+  };
   // The last cell whose start is not above u. A cell without mass ends where it starts, so that it
   // is passed over.
-  UInt<A> cell(0u);
-  for (uint32_t step = search_step; step; step /= 2) {
-    const UInt<A> next = cell + UInt<A>(step);
-    const Mask<A> there = mask_of<A>(next < count);
-    const Float<A> start = gather<A>(table, only<A>(there, first + next));
-    cell = select<A>(there & (start <= u), next, cell);
+  UInt<A> low = guided(guide), high = guided(guide + step);
+  for (Mask<A> open = mask_of<A>(low < high); any<A>(open); open = mask_of<A>(low < high)) {
+    const UInt<A> middle = (low + high + step) >> 1;
+    const Float<A> start = gather<A>(table, only<A>(active, first + middle));
+    const Mask<A> before = start <= u;
+    low = select<A>(open & before, middle, low);
+    high = select<A>(open & !before, middle - step, high);
   }
-  const Float<A> start = gather<A>(table, first + cell);
-  const Float<A> mass = gather<A>(table, first + cell + UInt<A>(1u)) - start;
+  const UInt<A> at = only<A>(active, first + low);
+  const Float<A> start = gather<A>(table, at), mass = gather<A>(table, at + step) - start;
   Float<A> inside = xsimd::select(mass > zero, (u - start) / mass, zero);
   inside = xsimd::min(xsimd::max(inside, zero), one);
-  return {cell, to_number<A>(cell) + inside, mass};
+  return {low, to_number<A>(low) + inside, mass};
 }
 
 template <class A>
 YAT_INLINE UInt<A> first_of_row(const LightMapW<A>& map, const UInt<A>& row) {
-  return map.cells + map.rows + UInt<A>(1u) + row * (map.columns + UInt<A>(1u));
+  return map.cells + cell_list_words(map.rows) + row * cell_list_words(map.columns);
 }
 
 /// A place by the map's cells; v chooses the row.
 template <class A>
 YAT_INLINE CellPlace<A> sample_cells(const LightView& lights, const LightMapW<A>& map,
-                                     const Float<A>& u, const Float<A>& v) {
+                                     const Mask<A>& of_kind, const Float<A>& u, const Float<A>& v) {
   const Float<A> columns = to_number<A>(map.columns), rows = to_number<A>(map.rows);
-  const Inverted<A> t = invert_cells<A>(lights.cells, map.cells, map.rows, lights.search_step, v);
-  const Inverted<A> s = invert_cells<A>(lights.cells, first_of_row<A>(map, t.cell), map.columns,
-                                        lights.search_step, u);
+  const Inverted<A> t = invert_cells<A>(lights.cells, map.cells, map.rows, of_kind, v);
+  const Inverted<A> s =
+      invert_cells<A>(lights.cells, first_of_row<A>(map, t.cell), map.columns, of_kind, u);
   return {s.place / columns, t.place / rows, (s.mass * columns) * (t.mass * rows)};
 }
 
@@ -236,10 +252,10 @@ struct CellPick {
 };
 template <class A>
 YAT_INLINE CellPick<A> pick_by_cells(const LightView& lights, const LightMapW<A>& map,
-                                     const Vec3<A>& receiver, const Float<A>& far,
-                                     const Float<A>& u, const Float<A>& v) {
+                                     const Mask<A>& of_kind, const Vec3<A>& receiver,
+                                     const Float<A>& far, const Float<A>& u, const Float<A>& v) {
   const Float<A> zero(0.f), one(1.f);
-  const CellPlace<A> place = sample_cells<A>(lights, map, u, v);
+  const CellPlace<A> place = sample_cells<A>(lights, map, of_kind, u, v);
   const SinCos<A> theta = sin_cos_turns<A>(Float<A>(.5f) * place.t);
   const SinCos<A> phi = sin_cos_turns<A>(place.s);
   CellPick<A> out;
