@@ -111,7 +111,8 @@ TEST_P(MaterialRenders, MetalPathsAgree) {
        "\"float vroughness\" [.3]",
        "Material \"metal2\" \"float fresnel\" [2] \"float uroughness\" [.5] "
        "\"float vroughness\" [.5]",
-       "Material \"metal2\" \"color fresnel\" [.9 .6 .3] \"float uroughness\" [.15] "
+       "Texture \"c\" \"fresnel\" \"fresnelcolor\" \"color Kr\" [.9 .6 .3]\nMaterial \"metal2\" "
+       "\"texture fresnel\" [\"c\"] \"float uroughness\" [.15] "
        "\"float vroughness\" [.5]",
        "Material \"shinymetal\" \"color Kr\" [.3 .3 .3] \"color Ks\" [.5 .4 .3] "
        "\"float uroughness\" [.3] \"float vroughness\" [.3] \"float film\" [250]",
@@ -134,7 +135,8 @@ TEST_P(MaterialRenders, GlassPathsAgree) {
 // dp/du by texture coordinates, in the plane, on instances, and where there are none.
 TEST_P(MaterialRenders, BrushedPathsAgree) {
   const std::string brushed =
-      "Material \"metal2\" \"color fresnel\" [.8 .8 .8] \"float uroughness\" [.6] \"float "
+      "Texture \"c\" \"fresnel\" \"fresnelcolor\" \"color Kr\" [.8 .8 .8]\nMaterial \"metal2\" "
+      "\"texture fresnel\" [\"c\"] \"float uroughness\" [.6] \"float "
       "vroughness\" [.15]\n";
   const std::string uv = "\"float uv\" [0 0  1 .3  1.2 1  0 1]\n";
   const std::string quad =
