@@ -160,10 +160,11 @@ TEST_F(CompileMaterials, DiffuseWithSomethingToSay) {
 }
 
 TEST_F(CompileMaterials, Unsupported) {
-  Scene scene = with(plugin("layered", {}));
+  Scene scene = with(plugin("glossycoating", {}));
   EXPECT_EQ(row_of<MatteParameters>(scene, MaterialKind::kMatte).kd_r, .5f);
   EXPECT_SAID(
-      "scene.lxs:10:1: warning: material \"layered\" is not yet supported: rendered as matte with "
+      "scene.lxs:10:1: warning: material \"glossycoating\" is not yet supported: rendered as matte "
+      "with "
       "Kd 0.5 0.5 0.5");
   scene = with(plugin("mate", {}));
   EXPECT_SAID(
