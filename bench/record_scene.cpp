@@ -175,8 +175,9 @@ class Recorder {
   }
 
   void shade(uint32_t bin, uint32_t n, ShadeOutput& out) {
-    const bool matte = options_.materials == RecordMaterials::kMatte;
     const BinPlan& plan = plan_.bins[bin];
+    // What is made of others counts as matte too: rays are what is recorded, not light.
+    const bool matte = options_.materials == RecordMaterials::kMatte || plan.splits;
     const Randoms<Column>& randoms = randoms_.columns();
     draw(Dimension::kLight, randoms.light_u, randoms.light_v, n);
     draw(Dimension::kChoice, randoms.light_choice, randoms.lobe, n);

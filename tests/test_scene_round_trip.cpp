@@ -21,7 +21,7 @@ void expect_equal(const Plugin& a, const Plugin& b) {
     EXPECT_EQ(p.integers, q.integers);
     EXPECT_EQ(p.texture, q.texture);
     EXPECT_EQ(p.material, q.material);
-    if (p.type != ParameterType::kTexture && p.material == kNone) {
+    if (p.type != ParameterType::kTexture && p.material == 0xffffffffu) {
       EXPECT_EQ(p.strings, q.strings);
     }
   }
@@ -108,6 +108,17 @@ void round_trip(const std::string& text, bool names) {
   SCOPED_TRACE(printed);
   expect_equal(first.scene, second.scene, names);
   EXPECT_EQ(print_description(second.scene), printed);
+}
+
+TEST(RoundTrip, MaterialsOfMaterials) {
+  round_trip(R"(
+WorldBegin
+MakeNamedMaterial "a" "string type" ["matte"]
+MakeNamedMaterial "a" "string type" ["mix"] "string namedmaterial1" ["a"] "string namedmaterial2" ["no"]
+Material "layered" "string namedmaterial1" ["a"] "string namedmaterial3" ["a"]
+Shape "sphere"
+WorldEnd)",
+             false);
 }
 
 TEST(RoundTrip, AllConstructs) {

@@ -177,6 +177,33 @@ TEST(SceneText, NamesMeanWhatTheyMeantWhereTheyAreUsed) {
   for (size_t i = 0; i < 4; ++i) EXPECT_EQ(scene.shapes[i].material, expected[i]) << i;
 }
 
+TEST(SceneText, MaterialsAreMadeOfWhatIsVisibleThere) {
+  const ReadResult result = read_world(
+      "MakeNamedMaterial \"a\" \"string type\" [\"matte\"]\n"
+      "AttributeBegin MakeNamedMaterial \"b\" \"string type\" [\"glass\"]\n"
+      "Material \"mix\" \"string namedmaterial1\" [\"a\"] \"string namedmaterial2\" [\"b\"]\n"
+      "MakeNamedMaterial \"a\" \"string type\" [\"doubleside\"] \"string frontnamedmaterial\" "
+      "[\"a\"] "
+      "\"string backnamedmaterial\" [\"b\"] AttributeEnd\n"
+      "Material \"mix\" \"string namedmaterial1\" [\"a\"] \"string namedmaterial2\" [\"b\"]\n"
+      "Material \"matte\" \"string namedmaterial1\" [\"nobody\"]");
+  const auto child = [&](size_t material, size_t parameter) {
+    return result.scene.materials[material].plugin.parameters[parameter].material;
+  };
+  ASSERT_EQ(result.scene.materials.size(), 6u);
+  EXPECT_EQ(child(2, 0), 0u);
+  EXPECT_EQ(child(2, 1), 1u);
+  EXPECT_EQ(child(3, 0), 0u) << "of itself it is not made";
+  EXPECT_EQ(child(4, 0), 0u) << "the inner a has gone";
+  EXPECT_EQ(child(4, 1), kNone);
+  EXPECT_EQ(child(5, 0), kNone) << "not asked for";
+  ASSERT_EQ(result.said.size(), 2u);
+  EXPECT_EQ(
+      result.said[1],
+      "t.lxs:6:46: error: no material \"b\", it was defined at t.lxs:3:16 in a block that has "
+      "ended, define it outside, for \"namedmaterial2\"");
+}
+
 TEST(SceneText, TextureKindsAreSeparateNameSpaces) {
   const ReadResult result = read_world(
       "Texture \"t\" \"float\" \"constant\" Texture \"t\" \"color\" \"constant\" Texture \"t\" "
