@@ -193,8 +193,13 @@ class Recorder {
     }
     const MaterialKind kind = matte ? MaterialKind::kMatte : plan.bin.material;
     ParameterView parameters = view_.parameters[uint32_t(kind)];
+    // Textures are not evaluated: what the material is without them will do for the next rays.
+    if (plan.bin.program != kNone) {
+      const TextureProgram& program = scene_.programs[plan.bin.program];
+      parameters = {program.parameters.data(), program.rows, nullptr};
+    }
     if (matte) {
-      parameters = {white_.view().words, 1};
+      parameters = {white_.view().words, 1, nullptr};
       std::fill_n(surfaces_.columns().parameter, n, 0u);
     }
     DropLog drops;

@@ -1,10 +1,7 @@
-// Materials and textures: parameter rows, fallbacks, messages.
-
-#include <OpenImageIO/imagebuf.h>
+// Materials and constant textures: parameter rows, fallbacks, messages.
 
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 
 #include "kernels/materials/all.h"
 #include "scene/compile_fresnel.h"
@@ -404,46 +401,21 @@ TEST_F(CompileMaterials, ConstantTexturesAreEvaluated) {
   EXPECT_SILENT();
 }
 
-TEST_F(CompileMaterials, ImagesCountByTheirMean) {
-  const std::filesystem::path folder = std::filesystem::path(YAT_TEST_OUTPUT_DIR) / "compile";
-  std::filesystem::create_directories(folder);
-  OIIO::ImageSpec spec(2, 1, 3, OIIO::TypeDesc::UINT8);
-  OIIO::ImageBuf image(spec);
-  const float black[3] = {0, 0, 0}, other[3] = {1, .4f, 0};
-  image.setpixel(0, 0, black);
-  image.setpixel(1, 0, other);
-  ASSERT_TRUE(image.write((folder / "two.png").string()));
-  description.directory = folder.string();
-  description.textures.push_back(
-      {"picture", "color",
-       plugin("imagemap", {text("filename", "two.png"), number("gamma", 2), number("gain", .5f),
-                           number("vscale", -1)}),
-       Matrix(1.)});
-  const auto kd =
-      row_of<MatteParameters>(with(plugin("matte", {texture("Kd", 0)})), MaterialKind::kMatte);
-  // (gain * texel)^gamma, then the mean of both texels; .4 is 102 / 255 exactly.
-  EXPECT_FLOAT_EQ(kd.kd_r, .125f);
-  EXPECT_NEAR(kd.kd_g, .02, 1e-6);
-  EXPECT_EQ(kd.kd_b, 0);
-  EXPECT_EQ(all_said(),
-            "scene.lxs:10:1: warning: texture \"picture\": image textures are not yet "
-            "supported: the mean colour of the image is used\n");
-}
-
-TEST_F(CompileMaterials, MissingAndUnsupportedTextures) {
+TEST_F(CompileMaterials, MissingAndUnknownTextures) {
   description.textures.push_back(
       {"gone", "color", plugin("imagemap", {text("filename", "gone.png")}), Matrix(1.)});
   auto kd =
       row_of<MatteParameters>(with(plugin("matte", {texture("Kd", 0)})), MaterialKind::kMatte);
   EXPECT_EQ(kd.kd_r, 1);
   EXPECT_SAID("scene.lxs:11:2: error: image \"gone.png\" not found: white is used");
-  description.textures[0] = {"m", "color", plugin("marble", {integers("octaves", {8})}),
+  description.textures[0] = {"m", "color", plugin("marbel", {integers("octaves", {8})}),
                              Matrix(1.)};
   kd = row_of<MatteParameters>(with(plugin("matte", {texture("Kd", 0)})), MaterialKind::kMatte, 0);
   EXPECT_FLOAT_EQ(kd.kd_r, .9f);
   EXPECT_SAID(
-      "scene.lxs:10:1: warning: texture \"m\": \"marble\" is not yet supported: the default of the "
-      "parameter that uses it is taken");
+      "scene.lxs:10:1: error: texture \"m\": unknown class \"marbel\" (did you mean \"marble\"?): "
+      "the "
+      "default of the parameter that uses it is taken");
   // A texture that is made of itself ends.
   description.textures[0] = {"loop", "color", plugin("scale", {texture("tex1", 0)}), Matrix(1.)};
   with(plugin("matte", {texture("Kd", 0)}));

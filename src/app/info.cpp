@@ -210,6 +210,10 @@ std::string memory_of(const Scene& scene) {
   line("light choice", scene.light_choice.bytes());
   for (uint32_t kind = 0; kind < kMaterialKinds; ++kind)
     line(fmt::format("material {}", kMaterialNames[kind]), scene.parameters[kind].bytes());
+  size_t programs = 0;
+  for (const TextureProgram& program : scene.programs) programs += program.bytes();
+  line("texture programs", programs);
+  line("texels", scene.texels.bytes());
   line("pixel filter", scene.filter_quantile_x.bytes() + scene.filter_quantile_y.bytes() +
                            scene.filter_marginal.bytes() + scene.filter_conditional.bytes() +
                            scene.filter_sign.bytes());

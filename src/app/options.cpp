@@ -48,6 +48,8 @@ constexpr OptionText kRenderOptions[] = {
     {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
     {"--instances", "auto|copy|share", "auto",
      "objects placed by ObjectInstance: copied, stored once, or as their size says"},
+    {"--texture-cache", "MB", "2048",
+     "most memory for the texels of images; the finest levels are left out beyond it"},
     {"--isa", "NAME", "YAT_ISA, or the best here", "instruction set of the kernels"},
     {"--tree", "auto|kd", "the scene's",
      "tree over the triangles; auto: the fastest for them, kd: a strict kd-tree; the picture is "
@@ -79,6 +81,8 @@ constexpr OptionText kInfoOptions[] = {
     {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
     {"--instances", "auto|copy|share", "auto",
      "objects placed by ObjectInstance: copied, stored once, or as their size says"},
+    {"--texture-cache", "MB", "2048",
+     "most memory for the texels of images; the finest levels are left out beyond it"},
     {"--isa", "NAME", "YAT_ISA, or the best here", "instruction set of the kernels"},
     {"--tree", "auto|kd", "the scene's",
      "tree over the triangles; auto: the fastest for them, kd: a strict kd-tree; the picture is "
@@ -178,7 +182,8 @@ std::array<T, N> numbers(std::string_view option, std::string_view text, char se
 /// Text of every option as given; read into Arguments once all are known.
 struct Given {
   std::string spp, samples_range, time, threads, integrator, max_depth, sampler, sample_set, compat,
-      colour, seed, resolution, crop, instances, tree, tone_map, exposure, aov, progress;
+      colour, seed, resolution, crop, instances, texture_cache, tree, tone_map, exposure, aov,
+      progress;
   bool verbose = false, quiet = false;
 };
 
@@ -218,6 +223,7 @@ void add_shared(Adder& add, Arguments& arguments, Given& given) {
   add("--resolution", given.resolution);
   add("--crop", given.crop);
   add("--instances", given.instances);
+  add("--texture-cache", given.texture_cache);
   add("--isa", arguments.isa);
   add("--tree", given.tree);
   add("--verbose", given.verbose);
@@ -292,6 +298,10 @@ void read_given(const Given& given, Arguments& to) {
   if (!given.tree.empty()) to.tree = by_name("--tree", given.tree, kTrees);
   if (!given.instances.empty())
     to.instances = by_name("--instances", given.instances, kInstanceModes);
+  if (!given.texture_cache.empty())
+    to.image_bytes = uint64_t(number<uint32_t>("--texture-cache", given.texture_cache,
+                                               given.texture_cache, 1u, 8191u))
+                     << 20;
   if (!given.tone_map.empty()) to.tone_map = by_name("--tonemap", given.tone_map, kToneMaps);
   if (!given.exposure.empty())
     to.exposure_stops = number<float>("--exposure", given.exposure, given.exposure, -100.f, 100.f);

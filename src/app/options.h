@@ -59,6 +59,7 @@ struct Arguments {
   std::optional<std::array<float, 4>> crop;  ///< fractions x0 x1 y0 y1
   TreeChoice tree = TreeChoice::kFromScene;
   InstanceMode instances = InstanceMode::kAuto;
+  uint64_t image_bytes = ImageStore::kDefaultLimit;  ///< --texture-cache
   std::string isa;
   std::optional<ToneMap> tone_map;
   float exposure_stops = 0;

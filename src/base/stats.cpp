@@ -4,7 +4,7 @@ namespace yat {
 
 std::string_view stage_name(Stage stage) {
   constexpr std::array<std::string_view, kStages> names = {
-      "generate", "intersect",     "sort",  "environment",      "surface",    "emission",
+      "generate", "intersect",     "sort",  "environment",      "surface",    "emission", "texture",
       "draw",     "sample_lights", "shade", "intersect_shadow", "accumulate", "schedule"};
   static_assert(!names.back().empty(), "a stage has no name");
   return uint32_t(stage) < kStages ? names[uint32_t(stage)] : std::string_view("unknown");

@@ -16,6 +16,7 @@ enum class Stage : uint32_t {
   kEnvironment,
   kSurface,
   kEmission,
+  kTexture,
   kDraw,
   kLightSample,
   kShade,

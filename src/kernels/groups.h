@@ -11,6 +11,7 @@ void fill_light(KernelTable& table);        ///< light sampling, the kinds most 
 void fill_environment(KernelTable& table);  ///< light sampling of all kinds; rays that miss
 void fill_shade(KernelTable& table);        ///< shading and the BSDF batches, per material
 void fill_split(KernelTable& table);        ///< materials made of others; veils
+void fill_textures(KernelTable& table);     ///< texture steps, per kind
 void fill_accumulate(KernelTable& table);   ///< shadow rays -> samples
 void fill_traverse(KernelTable& table);
 void fill_instances(KernelTable& table);  ///< all that only scenes with shared objects need

@@ -20,6 +20,7 @@ const KernelTable* kernel_table() {
     fill_environment(t);
     fill_shade(t);
     fill_split(t);
+    fill_textures(t);
     fill_accumulate(t);
     fill_traverse(t);
     fill_instances(t);

@@ -74,10 +74,21 @@ YAT_INLINE Mask<A> is_not_black(const Spectrum<A>& c) {
   return (c.r != zero) | (c.g != zero) | (c.b != zero);
 }
 
-/// Rows of a parameter table; one row is the same for all.
+/// Rows of a parameter table; one row is the same for all. `first` is the first of the chunk's rows
+/// that they are for: where the view has columns, those are read from there on.
 template <class A, template <template <class> class> class Record>
 YAT_INLINE Record<Lanes<A>::template Of> load_parameters(const ParameterView& view,
-                                                         const UInt<A>& row) {
+                                                         const UInt<A>& row, uint32_t first = 0) {
+  if (view.columns) {
+    Record<Lanes<A>::template Of> out;
+    for_each_field(
+        [&](auto field, auto& to) {
+          using T = typename std::remove_reference_t<decltype(to)>::value_type;
+          to = xsimd::bitwise_cast<T>(load<A>(view.columns[field], first));
+        },
+        out);
+    return out;
+  }
   const Rows<Record> rows{view.words, view.count};
   return view.count == 1 ? broadcast<A>(rows, 0) : gather<A>(rows, row);
 }
@@ -179,7 +190,7 @@ void shade_scattering(const ShadeInput& in, const TransportOptions& options, Sha
                      load<A>(in.surfaces.wo_z, i)};
     const Float<A> offset = load<A>(in.surfaces.offset, i);
     const auto parameters = load_parameters<A, Record>(
-        in.parameters, only<A>(present, load<A>(in.surfaces.parameter, i)));
+        in.parameters, only<A>(present, load<A>(in.surfaces.parameter, i)), i);
     ShadingFrame<A> shading = ShadingFrame<A>::of(ng, ns, wo);
     shading.view.distance = load<A>(in.surfaces.distance, i);
     if (in.tangents.x)

@@ -29,7 +29,7 @@ void split(const ParameterView& view, const Surface<ConstColumn>& surfaces, bool
            float* share, uint32_t* first, uint32_t* second, uint32_t n) noexcept {
   for (uint32_t i = 0; i < n; i += kLanes<A>) {
     const auto parameters = load_parameters<A, Record>(
-        view, only<A>(tail_mask<A>(i, n), load<A>(surfaces.parameter, i)));
+        view, only<A>(tail_mask<A>(i, n), load<A>(surfaces.parameter, i)), i);
     store<A>(Material<A>::share(parameters, seen_from_outside<A>(surfaces, i, turned)), share, i);
     store<A>(parameters.first, first, i);
     store<A>(parameters.second, second, i);

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernels/texture_step.h"
 #include "scene/compiled.h"
 #include "scene/registry.h"
 #include "soa/records.h"
@@ -211,6 +212,30 @@ struct KernelTable {
                           const Hit<ConstColumn>&, const PathState<ConstColumn>&,
                           const TransportOptions&, const SampleSum<Column>&, DropLog&,
                           uint32_t n) noexcept;
+  /// Textured bins. `order` and `instance` are as for make_instance_surfaces; null for others.
+  void (*make_derivatives)(const SceneView&, GeometryKind, const uint32_t* order,
+                           const uint32_t* instance, const Surface<ConstColumn>&,
+                           const PathState<ConstColumn>&, const SurfaceDerivatives<Column>&,
+                           uint32_t n) noexcept;
+  /// One step of a texture program.
+  void (*run_texture[kStepKinds])(const TextureInput&, const TextureStepView&, uint32_t n) noexcept;
+  /// Fields of parameter rows row[0..n) as columns, where columns[f] is not null; the table's rows
+  /// are row_words apart.
+  void (*spread_parameters)(const ParameterView&, uint32_t row_words, const uint32_t* row,
+                            uint32_t* const* columns, uint32_t fields, uint32_t n) noexcept;
+  /// Bump maps; constants are rows of BumpParameters by Surface::parameter. First surfaces a step
+  /// further along dp/du (axis 0) or dp/dv (1) of each: pos, u and v of `moved` are written.
+  void (*move_surfaces)(const Surface<ConstColumn>&, const SurfaceDerivatives<ConstColumn>&,
+                        const ParameterView& bump, uint32_t axis, const Surface<Column>& moved,
+                        uint32_t n) noexcept;
+  /// Then shading normals bent by the heights [scene units] at the surfaces and a step further.
+  void (*bend_normals)(const Surface<Column>&, const SurfaceDerivatives<ConstColumn>&,
+                       const ParameterView& bump, const float* height, const float* height_u,
+                       const float* height_v, uint32_t n) noexcept;
+  /// Normal maps: shading normals from colours, 2 rgb - 1 along dp/du, dp/dv and the old normal.
+  void (*map_normals)(const Surface<Column>&, const SurfaceDerivatives<ConstColumn>&,
+                      const ParameterView& bump, const float* r, const float* g, const float* b,
+                      uint32_t n) noexcept;
   /// One light per surface. [k < kPlainLightKinds]: scenes whose lights are all of kind k;
   /// [kPlainLights]: any mixture of those kinds; [kAnyLights]: of all kinds.
   void (*sample_lights[kLightKernels])(const SceneView&, const Surface<ConstColumn>&,

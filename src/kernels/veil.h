@@ -69,7 +69,7 @@ void veil(const ParameterView& table, const Surface<ConstColumn>& surfaces, bool
   const Float<A> side(turned ? -1.f : 1.f);
   for (uint32_t i = 0; i < n; i += kLanes<A>) {
     const auto parameters = load_parameters<A, Record>(
-        table, only<A>(tail_mask<A>(i, n), load<A>(surfaces.parameter, i)));
+        table, only<A>(tail_mask<A>(i, n), load<A>(surfaces.parameter, i)), i);
     const Vec3<A> ng{load<A>(surfaces.ng_x, i), load<A>(surfaces.ng_y, i),
                      load<A>(surfaces.ng_z, i)};
     const Vec3<A> ns{load<A>(surfaces.ns_x, i), load<A>(surfaces.ns_y, i),

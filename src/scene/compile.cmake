@@ -25,6 +25,18 @@ target_sources(
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_sky.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_textures.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_veils.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_programs.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_texture_arithmetic.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_texture_image.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_texture_blender.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_texture_mapping.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_texture_noise.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_texture_patterns.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_texture_spectral.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_textures.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/image_store.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/spectrum.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/texture_graph.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/data_files.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/daylight.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/ies.cpp

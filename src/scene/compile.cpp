@@ -107,7 +107,7 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   accept_silently(description.renderer);
   accept_silently(description.volume_integrator);
 
-  ShapePlacer shapes(description, scene.colour, options.instances, diagnostics);
+  ShapePlacer shapes(description, scene.colour, options, diagnostics);
   shapes.place_all();
   scene.shapes_read = shapes.shapes_read();
   // YART's path tracer knows no points.
@@ -203,13 +203,14 @@ SceneView Scene::view() const {
   view.camera = camera;
   view.filter = filter;
   view.radius = radius;
+  view.texels = texels.view();
   view.filter.quantile_x = filter_quantile_x.data();
   view.filter.quantile_y = filter_quantile_y.data();
   view.filter.marginal = filter_marginal.data();
   view.filter.conditional = filter_conditional.data();
   view.filter.sign = filter_sign.data();
   for (uint32_t kind = 0; kind < kMaterialKinds; ++kind)
-    view.parameters[kind] = {parameters[kind].data(), parameter_rows[kind]};
+    view.parameters[kind] = {parameters[kind].data(), parameter_rows[kind], nullptr};
   return view;
 }
 
@@ -221,6 +222,8 @@ size_t Scene::bytes() const {
                filter_quantile_x.bytes() + filter_quantile_y.bytes() + filter_marginal.bytes() +
                filter_conditional.bytes() + filter_sign.bytes();
   for (const auto& table : parameters) sum += table.bytes();
+  for (const TextureProgram& program : programs) sum += program.bytes();
+  sum += texels.bytes();
   return sum;
 }
 

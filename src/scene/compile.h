@@ -15,7 +15,9 @@
 #include "scene/colour_model.h"
 #include "scene/compiled.h"
 #include "scene/description.h"
+#include "scene/image_store.h"
 #include "scene/instances.h"
+#include "scene/texture_program.h"
 #include "scene/tree_build.h"
 
 namespace yat {
@@ -30,7 +32,8 @@ enum class Passing : uint32_t {
 /// A material but for its parameters: what takes one way through the stages.
 struct MaterialForm {
   MaterialKind kind = MaterialKind::kMatte;
-  uint32_t split = kNone;  ///< row of Scene::splits, if the kind is made of others
+  uint32_t split = kNone;    ///< row of Scene::splits, if the kind is made of others
+  uint32_t program = kNone;  ///< row of Scene::programs, if textures make its parameters
   auto operator<=>(const MaterialForm&) const = default;
 };
 /// What a material is made of. Its record holds the children's rows.
@@ -52,6 +55,7 @@ struct Bin {
   uint64_t primitives = 0;  ///< in this bin; those of an object count once per instance
   uint32_t split = kNone;   ///< row of Scene::splits, if the material is made of others
   Passing passing = Passing::kSolid;
+  uint32_t program = kNone;  ///< row of Scene::programs: what makes the material's parameters
 };
 inline constexpr uint32_t kMaxBins = 1024;  ///< in practice below 40
 
@@ -83,6 +87,7 @@ struct CompileOptions {
   InstanceMode instances = InstanceMode::kAuto;
   /// Direct light, mirrors and glass alone, or all light; empty: as SurfaceIntegrator says.
   std::optional<bool> direct_only;
+  uint64_t image_bytes = ImageStore::kDefaultLimit;  ///< --texture-cache: most memory for texels
 };
 
 /// The compiled scene: owns all columns.
@@ -116,6 +121,8 @@ struct Scene {
   std::vector<MaterialSplit> splits;  ///< of children before their parents
   std::array<AlignedArray<uint32_t>, kMaterialKinds> parameters;  ///< row_words<its record> per row
   std::array<uint32_t, kMaterialKinds> parameter_rows{};
+  std::vector<TextureProgram> programs;
+  Texels texels;
   AlignedArray<float> filter_quantile_x, filter_quantile_y;
   AlignedArray<float> filter_marginal, filter_conditional, filter_sign;
   CameraView camera{};

@@ -15,7 +15,7 @@ namespace yat {
 
 MaterialRef add_matte(MaterialCompiler& compiler, const glm::dvec3& kd, double sigma_degrees) {
   const glm::vec3 c = compiler.bands(kd);
-  if (sigma_degrees == 0)
+  if (sigma_degrees == 0 && !compiler.varies("sigma"))
     return compiler.add<MatteParameters>(MaterialKind::kMatte, {c.x, c.y, c.z});
   return compiler.add<OrenNayarParameters>(MaterialKind::kOrenNayar,
                                            {c.x, c.y, c.z, float(sigma_degrees)});
@@ -45,10 +45,9 @@ MaterialRef build_mattetranslucent(MaterialCompiler& compiler, Parameters& p) {
 
 MaterialRef build_velvet(MaterialCompiler& compiler, Parameters& p) {
   const glm::vec3 kd = compiler.reflectance_bands(p, "Kd", .3);
-  const Description& description = compiler.description();
-  const auto p1 = float(float_parameter(p, "p1", -2, description));
-  const auto p2 = float(float_parameter(p, "p2", 20, description));
-  const auto p3 = float(float_parameter(p, "p3", 2, description));
+  const auto p1 = float(float_parameter(p, "p1", -2, compiler.textures()));
+  const auto p2 = float(float_parameter(p, "p2", 20, compiler.textures()));
+  const auto p3 = float(float_parameter(p, "p3", 2, compiler.textures()));
   const auto thickness = float(compiler.clamped(p, "thickness", .1, 0, 1));
   return compiler.add<VelvetParameters>(MaterialKind::kVelvet,
                                         {kd.x, kd.y, kd.z, p1, p2, p3, thickness});
@@ -70,7 +69,7 @@ MaterialRef build_cloth(MaterialCompiler& compiler, Parameters& p) {
 
 MaterialRef build_scatter(MaterialCompiler& compiler, Parameters& p) {
   const glm::vec3 kd = compiler.reflectance_bands(p, "Kd", .9);
-  const glm::dvec3 g = color_parameter(p, "g", glm::dvec3(0.), compiler.description());
+  const glm::dvec3 g = color_parameter(p, "g", glm::dvec3(0.), compiler.textures());
   const double mean = (g.x + g.y + g.z) / 3;
   if (g.x != g.y || g.x != g.z)
     p.diagnostics().warning(

@@ -273,7 +273,7 @@ Fresnel fresnel_parameter(MaterialCompiler& compiler, Parameters& p) {
     return as_colour("fresnel");
   }
   if (fresnel) {
-    const double n = float_parameter(p, "fresnel", 5, description);
+    const double n = float_parameter(p, "fresnel", 5, compiler.textures());
     return checked(p, {{n, n, n}, {}});
   }
   if (p.given("Kr")) return as_colour("Kr");
@@ -291,7 +291,7 @@ double index_parameter(MaterialCompiler& compiler, Parameters& p, std::string_vi
       const double root = std::sqrt(std::min(std::get<FresnelColour>(fresnel).kr.y, .999));
       return (1 + root) / (1 - root);
     }
-  return float_parameter(p, name, fallback, compiler.description());
+  return float_parameter(p, name, fallback, compiler.textures());
 }
 
 }  // namespace yat

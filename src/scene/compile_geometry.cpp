@@ -63,6 +63,7 @@ BinKey BinKey::of(GeometryKind geometry, const MaterialRef& material, bool emiss
           .material = material.kind,
           .split = material.split,
           .passing = material.passing,
+          .program = material.program,
           .emissive = emissive,
           .tangents = material.tangents};
 }
@@ -82,7 +83,8 @@ void BinKeys::number(Scene& scene, Diagnostics& diagnostics) {
                           .tangents = key.tangents,
                           .instanced = key.placing == Placing::kByInstance,
                           .split = key.split,
-                          .passing = key.passing});
+                          .passing = key.passing,
+                          .program = key.program});
     if (!key.lasting) scene.first_lasting_bin = bin + 1;
   }
 }
@@ -100,7 +102,8 @@ void GeometryRows::add(const PlacedShape& placed) {
 
 void GeometryRows::add_mesh(const PlacedShape& placed, const Mesh& mesh) {
   const auto first = uint32_t(triangles_.size());
-  const MeshRows added = add_mesh_rows(placed, mesh, center_, triangles_, vertices_, diagnostics_);
+  const MeshRows added =
+      add_mesh_rows(placed, mesh, center_, placed.material.uv, triangles_, vertices_, diagnostics_);
   degenerate_ += added.left_out;
   if (triangles_.size() == first) return;
   for (size_t t = first; t < triangles_.size(); ++t) {

@@ -24,13 +24,13 @@ namespace {
 constexpr double kLeastIndexStep = 1e-3;
 
 double refractive_index(MaterialCompiler& compiler, Parameters& p) {
-  double index = float_parameter(p, "index", 1.5, compiler.description());
+  double index = float_parameter(p, "index", 1.5, compiler.textures());
   if (!(index > 0) || !std::isfinite(index)) {
     p.diagnostics().warning(
         p.loc("index"), fmt::format("\"index\" is {}, but must be above 0: 1.5 is used", index));
     index = 1.5;
   }
-  const double cauchy_b = float_parameter(p, "cauchyb", 0, compiler.description());
+  const double cauchy_b = float_parameter(p, "cauchyb", 0, compiler.textures());
   if (cauchy_b != 0) {
     p.diagnostics().warning(p.loc("cauchyb"),
                             "dispersion is not supported: one index is used for all colours");

@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "kernels/materials/null.h"
+#include "kernels/textures/clamp.h"
 
 namespace yat {
 
@@ -61,8 +63,7 @@ constexpr double kDefaultKd = .9, kYartDefaultKd = .375;
 
 /// What every material takes.
 void accept_common(Parameters& p) {
-  p.unsupported({"bumpmap"}, "the surface stays smooth");
-  p.accept({"type", "bumpmapsampledistance", "compo_visible_material", "compo_visible_emission",
+  p.accept({"type", "compo_visible_material", "compo_visible_emission",
             "compo_visible_indirect_material", "compo_visible_indirect_emission",
             "compo_override_alpha", "compo_override_alpha_value", "name"});
 }
@@ -75,11 +76,12 @@ bool sees_volumes(std::string_view type) {
 }  // namespace
 
 glm::dvec3 MaterialCompiler::reflectance(Parameters& p, std::string_view name, double fallback) {
-  const glm::dvec3 given = color_parameter(p, name, glm::dvec3(fallback), description_);
+  const glm::dvec3 given = color_parameter(p, name, glm::dvec3(fallback), textures_);
   // max(0, NaN) is 0 in this order.
   const glm::dvec3 clamped(std::min(std::max(0., given.x), 1.), std::min(std::max(0., given.y), 1.),
                            std::min(std::max(0., given.z), 1.));
-  if (clamped != given)
+  // What varies is clamped where it is evaluated.
+  if (clamped != given && !varies(name))
     diagnostics_.warning(p.loc(name),
                          fmt::format("\"{}\" of {} is {:.6g} {:.6g} {:.6g}: clamped to 0..1", name,
                                      p.what(), given.x, given.y, given.z),
@@ -98,9 +100,9 @@ glm::vec3 MaterialCompiler::bands(const glm::dvec3& rgb) const {
 
 double MaterialCompiler::clamped(Parameters& p, std::string_view name, double fallback,
                                  double least, double most) {
-  const double given = float_parameter(p, name, fallback, description_);
+  const double given = float_parameter(p, name, fallback, textures_);
   const double clamped = std::min(std::max(least, given), most);  // least for a NaN
-  if (clamped != given)
+  if (clamped != given && !varies(name))
     diagnostics_.warning(p.loc(name),
                          fmt::format("\"{}\" of {} is {:.6g}: clamped to {:.6g}..{:.6g}", name,
                                      p.what(), given, least, most));
@@ -120,7 +122,84 @@ MaterialRef MaterialCompiler::stand_in(Parameters& p, std::string_view color, do
   return add_matte(*this, kd, 0);
 }
 
+bool MaterialCompiler::varies(std::string_view name) {
+  const auto& varying = textures_.varying();
+  return std::any_of(varying.begin(), varying.end(),
+                     [&](const auto& v) { return v.parameter == name; });
+}
+
+MaterialRef MaterialCompiler::bind_textures(Parameters& p, const MaterialRef& made) {
+  std::vector<TexturePrograms::Binding> bindings;
+  for (const TextureCompiler::Varying& v : textures_.varying()) {
+    bool bound = false;
+    for (const TexturedField& field : material_traits(made.kind).textured) {
+      if (field.parameter != v.parameter) continue;
+      bound = true;
+      TextureGraph::Input input = textures_.node(v.value);
+      if (v.value.least < double(field.least) || v.value.most > double(field.most) ||
+          field.unit != 1)
+        input = {textures_.graph().add<ClampParameters>(
+                     StepKind::kClamp, 0, {field.least, field.most, field.unit}, {input},
+                     textures_.graph()[input.node].outputs),
+                 0};
+      bindings.push_back({field.field, field.channels, input});
+    }
+    if (!bound)
+      diagnostics_.warning(
+          p.loc(v.parameter),
+          fmt::format("\"{}\" of {} cannot vary over a surface yet: about the mean of its texture "
+                      "is used",
+                      v.parameter, p.what()));
+  }
+  const TexturePrograms::Bump bump = read_bump(p);
+  if (bindings.empty() && bump.input.node == kNone) return made;
+  // The row that was made for it moves from the kind's table to the program's.
+  auto& words = words_[uint32_t(made.kind)];
+  const RecordSize record = parameters_size(made.kind);
+  const auto* first = words.data() + size_t(made.row) * record.row_words;
+  const std::vector<uint32_t> parameters(first, first + record.row_words);
+  if (made.row + 1 == rows_[uint32_t(made.kind)]) {
+    words.resize(words.size() - record.row_words);
+    --rows_[uint32_t(made.kind)];
+  }
+  const TexturePrograms::Ref ref =
+      programs_.add(made.kind, parameters, bindings, bump, textures_.graph());
+  MaterialRef textured = made;
+  textured.row = ref.row;
+  textured.program = ref.program;
+  textured.uv = std::max(made.uv, programs_.uv(ref.program));
+  return textured;
+}
+
+TexturePrograms::Bump MaterialCompiler::read_bump(Parameters& p) {
+  TexturePrograms::Bump bump;
+  bump.distance = p.number("bumpmapsampledistance", .001f);
+  if (!(bump.distance > 0)) {
+    diagnostics_.warning(p.loc("bumpmapsampledistance"),
+                         fmt::format("\"bumpmapsampledistance\" is {}, but must be above 0: 0.001 "
+                                     "is used",
+                                     bump.distance));
+    bump.distance = .001f;
+  }
+  const Parameter* texture = p.texture("bumpmap");
+  if (!texture) return bump;
+  const std::optional<TextureValue> map = textures_.bump(*texture);
+  // One height everywhere is a smooth surface.
+  if (!map || !map->varies()) return bump;
+  bump.input = textures_.node(*map);
+  bump.normal_map = map->normal_map;
+  return bump;
+}
+
 MaterialRef MaterialCompiler::build(const Plugin& plugin) {
+  // A material may be built while another is: what varies belongs to one of them.
+  std::vector<TextureCompiler::Varying> outer = std::exchange(textures_.varying(), {});
+  const MaterialRef made = build_plugin(plugin);
+  textures_.varying() = std::move(outer);
+  return made;
+}
+
+MaterialRef MaterialCompiler::build_plugin(const Plugin& plugin) {
   Parameters p(plugin, "material \"" + plugin.type + "\"", diagnostics_);
   const auto type = std::find_if(std::begin(kTypes), std::end(kTypes),
                                  [&](const MaterialType& t) { return t.name == plugin.type; });
@@ -133,8 +212,9 @@ MaterialRef MaterialCompiler::build(const Plugin& plugin) {
   }
   const MaterialRef made = type->build(*this, p);
   accept_common(p);
+  const MaterialRef textured = bind_textures(p, made);
   p.report_unused();
-  return made;
+  return textured;
 }
 
 MaterialRef MaterialCompiler::compile(uint32_t entry, const VolumesAround& volumes) {
@@ -201,6 +281,14 @@ void MaterialCompiler::finish(Scene& scene) {
     scene.parameter_rows[kind] = rows_[kind];
   }
   scene.splits = std::move(splits_);
+  ImageStore& images = textures_.images();
+  if (images.left_out())
+    diagnostics_.note({},
+                      fmt::format("{} mip levels of images are left out, so that texels take no "
+                                  "more than {} MB (--texture-cache)",
+                                  images.left_out(), images.limit() >> 20));
+  scene.programs = programs_.finish(textures_.graph(), scene.center, images);
+  scene.texels = images.take();
 }
 
 }  // namespace yat

@@ -24,17 +24,24 @@ struct VolumesAround {
 /// Turns material entries into parameter rows, each once.
 class MaterialCompiler {
  public:
-  MaterialCompiler(const Description& description, const ColourModel& colour,
+  MaterialCompiler(const Description& description, const ColourModel& colour, uint64_t image_bytes,
                    Diagnostics& diagnostics)
-      : description_(description), colour_(colour), diagnostics_(diagnostics) {}
+      : description_(description),
+        colour_(colour),
+        diagnostics_(diagnostics),
+        textures_(description, colour, diagnostics, image_bytes) {}
 
   /// entry: row of Description::materials, or kNone for the default matte. One material in several
   /// volumes is several rows if it looks at them.
   MaterialRef compile(uint32_t entry, const VolumesAround& volumes = {});
-  /// Moves the tables into the scene.
+  /// Moves the tables into the scene, whose centre must be known.
   void finish(Scene& scene);
 
   // -- For the families ---------------------------------------------------------------------------
+  // A parameter may be a texture. Of one that varies over the surface these give about the mean;
+  // where the traits of the kind that the material becomes name the parameter (MaterialTraits::
+  // textured), its fields come from the texture instead. Elsewhere the mean stays, with a warning.
+
   /// Appends a row to the kind's table.
   template <template <template <class> class> class Record>
   MaterialRef add(MaterialKind kind, const Record<Value>& record) {
@@ -81,27 +88,38 @@ class MaterialCompiler {
     made.split = split_row({{form_of(first), form_of(second)}, {first_turned, second_turned}});
     made.passing = first.passing == second.passing ? first.passing : Passing::kVeil;
     made.tangents = first.tangents || second.tangents;
+    made.uv = std::max(first.uv, second.uv);
     return made;
   }
 
   /// Of the shape that the material is built for.
   const VolumesAround& volumes() const { return volumes_; }
 
+  /// Whether the parameter, read before, varies over the surface.
+  bool varies(std::string_view name);
+
   const Description& description() const { return description_; }
+  TextureCompiler& textures() { return textures_; }
   const ColourModel& colour() const { return colour_; }
   Diagnostics& diagnostics() { return diagnostics_; }
 
  private:
   MaterialRef build(const Plugin& plugin);
   static MaterialForm form_of(const MaterialRef& material) {
-    return {material.kind, material.split};
+    return {material.kind, material.split, material.program};
   }
   uint32_t split_row(const MaterialSplit& split);
   uint32_t split_depth(const MaterialForm& form) const;
+  MaterialRef build_plugin(const Plugin& plugin);
+  TexturePrograms::Bump read_bump(Parameters& parameters);
+  /// The material with the fields that its traits name taken from what varies.
+  MaterialRef bind_textures(Parameters& parameters, const MaterialRef& made);
 
   const Description& description_;
   const ColourModel& colour_;
   Diagnostics& diagnostics_;
+  TextureCompiler textures_;
+  TexturePrograms programs_;
   VolumesAround volumes_;
   /// Empty: under way.
   std::map<std::pair<uint32_t, VolumesAround>, std::optional<MaterialRef>> done_;

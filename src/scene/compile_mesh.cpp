@@ -68,14 +68,15 @@ double mesh_area(const Mesh& mesh, const Placement& placement) {
 }
 
 MeshRows add_mesh_rows(const PlacedShape& placed, const Mesh& mesh, const glm::dvec3& center,
-                       std::vector<TriangleRow<Value>>& triangles,
+                       UvUse uv, std::vector<TriangleRow<Value>>& triangles,
                        std::vector<TriangleVertexRow<Value>>& vertices, Diagnostics& diagnostics) {
   const size_t first_vertex_row = vertices.size();
   const std::vector<glm::dvec3> normals = world_normals(mesh, placed);
   const bool mirrored = placed.reverse_orientation != placed.placement.mirrored;
   uint64_t no_area = 0, not_finite = 0, bad_normals = 0;
-  // Texture coordinates say where dp/du points.
-  bool flat = !(placed.material.tangents && !mesh.uvs.empty());
+  // Texture coordinates are for textures, and say where dp/du points.
+  const bool keep_uv = (uv != UvUse::kNone || placed.material.tangents) && !mesh.uvs.empty();
+  bool flat = !keep_uv;
   // By halves more at least: many small meshes must not copy the table each time.
   const size_t wanted = triangles.size() + mesh.triangles();
   if (wanted > triangles.capacity()) triangles.reserve(std::max(wanted, triangles.size() * 3 / 2));
@@ -127,7 +128,7 @@ MeshRows add_mesh_rows(const PlacedShape& placed, const Mesh& mesh, const glm::d
     row.parameter = 0;
     row.light = kNone;
     triangles.push_back(row);
-    if (normals.empty() && flat) continue;
+    if (normals.empty() && !keep_uv) continue;
 
     TriangleVertexRow<Value> vertex{};
     float* const to[3] = {&vertex.n0_x, &vertex.n1_x, &vertex.n2_x};
@@ -137,16 +138,20 @@ MeshRows add_mesh_rows(const PlacedShape& placed, const Mesh& mesh, const glm::d
       flat = flat && std::max({off.x, off.y, off.z}) <= kFlat;
       for (int axis = 0; axis < 3; ++axis) to[k][axis] = float(n[axis]);
     }
-    const auto uv = [&](int k, int axis) {
+    const auto uv_of = [&](int k, int axis) {
       return mesh.uvs.empty() ? .5f : mesh.uvs[2 * index[k] + size_t(axis)];
     };
-    vertex.u0 = uv(0, 0), vertex.v0 = uv(0, 1);
-    vertex.u1 = uv(1, 0), vertex.v1 = uv(1, 1);
-    vertex.u2 = uv(2, 0), vertex.v2 = uv(2, 1);
+    vertex.u0 = uv_of(0, 0), vertex.v0 = uv_of(0, 1);
+    vertex.u1 = uv_of(1, 0), vertex.v1 = uv_of(1, 1);
+    vertex.u2 = uv_of(2, 0), vertex.v2 = uv_of(2, 1);
     vertices.push_back(vertex);
   }
 
   if (flat) vertices.resize(first_vertex_row);
+  if (uv == UvUse::kNeeded && mesh.uvs.empty())
+    diagnostics.warning(placed.loc,
+                        "the material's texture is mapped by uv, which the mesh has not: it has "
+                        "one colour");
   if (no_area || not_finite) {
     std::string what;
     if (no_area) what = counted(no_area, "triangle has", "triangles have") + " no area";

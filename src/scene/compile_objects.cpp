@@ -91,7 +91,8 @@ void ObjectCompiler::build(const TreeOptions& options, ThreadPool& pool, Scene& 
       if (mesh.material.kind == MaterialKind::kNull && !mesh.emissive()) continue;
       const auto first = uint32_t(triangles.size());
       const MeshRows added =
-          add_mesh_rows(mesh, mesh.shape->mesh, object.center, triangles, vertices, diagnostics_);
+          add_mesh_rows(mesh, mesh.shape->mesh, object.center, uv_use(uint32_t(o), m), triangles,
+                        vertices, diagnostics_);
       scene.degenerate_triangles += added.left_out;
       if (triangles.size() == first) continue;
       uint32_t emissive = 0;
@@ -208,6 +209,14 @@ InstanceRow<Value> ObjectCompiler::row_of(const Object& object, const Map& map) 
   row.inner_y = above(std::max(size, there_and_back.y));
   row.inner_z = above(std::max(size, there_and_back.z));
   return row;
+}
+
+UvUse ObjectCompiler::uv_use(uint32_t object, uint32_t mesh) const {
+  UvUse most = UvUse::kNone;
+  for (const SharedShapes::Instance& instance : shapes_.instances)
+    if (instance.object == object)
+      most = std::max(most, shapes_.materials[instance.materials][mesh].uv);
+  return most;
 }
 
 void ObjectCompiler::add_to_bounds(Bounds& bounds) const {

@@ -38,8 +38,8 @@ struct SharedShapes {
 /// Reads every shape that is seen, once, and decides what is copied and what is shared.
 class ShapePlacer {
  public:
-  ShapePlacer(const Description& description, const ColourModel& colour, InstanceMode mode,
-              Diagnostics& diagnostics);
+  ShapePlacer(const Description& description, const ColourModel& colour,
+              const CompileOptions& options, Diagnostics& diagnostics);
   void place_all();
   /// Places a sphere that shines, of the default material.
   void place_lamp(const SphereLamp& lamp, SourceLoc loc);
@@ -133,6 +133,8 @@ class ObjectCompiler {
                     const glm::dvec3& scene_center);
   static TopBox placed_bounds(const Object& object, const Map& map);
   static InstanceRow<Value> row_of(const Object& object, const Map& map);
+  /// The most that an instance's material wants of the mesh's texture coordinates.
+  UvUse uv_use(uint32_t object, uint32_t mesh) const;
   BinKey key(const Run& run, const MaterialRef& material) const;
   /// Appends a row per shape; lights are not known yet. Returns the first.
   uint32_t add_shapes(const SharedShapes::Instance& instance, const BinKeys& keys,

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "scene/compile.h"
+#include "scene/compile_programs.h"
+#include "scene/compile_textures.h"
 #include "scene/description.h"
 #include "scene/parameters.h"
 
@@ -62,21 +64,28 @@ IntegratorSettings compile_integrator(const std::optional<Plugin>& integrator,
 
 // ---- Textures and materials (lxs 7, 8) -------------------------------------------------------
 
-/// A colour parameter that may be a texture, as one colour for the whole surface: constants and
-/// arithmetic of constants exactly, images by their mean (with a warning), others as `fallback`
-/// (with a warning).
+/// A colour parameter that may be a texture. One that varies over the surface is noted in
+/// textures.varying(), for whoever binds it to the material's fields; returned is then about its
+/// mean.
+glm::dvec3 color_parameter(Parameters& parameters, std::string_view name,
+                           const glm::dvec3& fallback, TextureCompiler& textures);
+/// The same for a float parameter.
+double float_parameter(Parameters& parameters, std::string_view name, double fallback,
+                       TextureCompiler& textures);
+/// The same for lights, over which nothing can vary: about the mean then, with a warning.
 glm::dvec3 color_parameter(Parameters& parameters, std::string_view name,
                            const glm::dvec3& fallback, const Description& description);
-/// The same for a float parameter.
 double float_parameter(Parameters& parameters, std::string_view name, double fallback,
                        const Description& description);
 
 /// Where a shape's material is in the parameter tables.
 struct MaterialRef {
   MaterialKind kind = MaterialKind::kMatte;
-  uint32_t row = 0;
-  bool tangents = false;   ///< looks different from other sides: needs dp/du
-  uint32_t split = kNone;  ///< row of Scene::splits
+  uint32_t row = 0;          ///< of the kind's table, or of the program's
+  uint32_t program = kNone;  ///< row of Scene::programs, or kNone: nothing is textured
+  UvUse uv = UvUse::kNone;   ///< what its textures want of the shape's texture coordinates
+  bool tangents = false;     ///< looks different from other sides: needs dp/du
+  uint32_t split = kNone;    ///< row of Scene::splits
   Passing passing = Passing::kSolid;
 };
 
@@ -155,9 +164,10 @@ struct MeshRows {
   uint32_t left_out = 0;  ///< triangles without area or with a vertex that is not finite
 };
 /// Appends the triangles of a placed mesh, relative to `center`, their outside by lxs 2.5, and
-/// their vertex rows unless the mesh turns out flat. parameter = 0, light = kNone.
+/// their vertex rows unless the mesh turns out flat; or are kept for their
+/// texture coordinates. parameter = 0, light = kNone.
 MeshRows add_mesh_rows(const PlacedShape& placed, const Mesh& mesh, const glm::dvec3& center,
-                       std::vector<TriangleRow<Value>>& triangles,
+                       UvUse uv, std::vector<TriangleRow<Value>>& triangles,
                        std::vector<TriangleVertexRow<Value>>& vertices, Diagnostics& diagnostics);
 /// The light that a triangle is.
 LightRow<Value> triangle_light(const TriangleRow<Value>& row, const glm::dvec3& radiance);
@@ -173,6 +183,7 @@ struct BinKey {
   MaterialKind material = MaterialKind::kMatte;
   uint32_t split = kNone;
   Passing passing = Passing::kSolid;
+  uint32_t program = kNone;  ///< of textures
   bool emissive = false;
   bool tangents = false;
   static BinKey of(GeometryKind geometry, const MaterialRef& material, bool emissive,

@@ -29,12 +29,12 @@ bool fits_float(const Placement& placement) {
 }  // namespace
 
 ShapePlacer::ShapePlacer(const Description& description, const ColourModel& colour,
-                         InstanceMode mode, Diagnostics& diagnostics)
+                         const CompileOptions& options, Diagnostics& diagnostics)
     : description_(description),
       colour_(colour),
-      mode_(mode),
+      mode_(options.instances),
       diagnostics_(diagnostics),
-      materials_(description, colour, diagnostics),
+      materials_(description, colour, options.image_bytes, diagnostics),
       shapes_(description.shapes.size()),
       area_lights_(description.area_lights.size()),
       members_(description.objects.size()) {}

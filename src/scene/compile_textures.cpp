@@ -1,12 +1,13 @@
-// Parameters that may be textures, as one value for the whole surface. Textures that vary over a
-// surface are not evaluated while rendering yet: an image counts by its mean.
+#include "scene/compile_textures.h"
 
-#include <OpenImageIO/imagebuf.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/textures/bands.h"
+#include "kernels/textures/constant.h"
+#include "kernels/textures/weigh.h"
 #include "scene/compile_parts.h"
 
 namespace yat {
@@ -16,128 +17,170 @@ namespace {
 /// Textures may name textures; a chain this long is a loop.
 constexpr int kMaxTextureDepth = 32;
 
-std::optional<glm::dvec3> evaluate(uint32_t row, const Description& description,
-                                   Diagnostics& diagnostics, int depth);
+constexpr auto kFamilies = {&arithmetic_textures, &image_textures,   &pattern_textures,
+                            &noise_textures,      &blender_textures, &spectral_textures};
 
-/// A texture's own input: a texture, or a constant of the texture's kind.
-std::optional<glm::dvec3> input(Parameters& p, const TextureEntry& entry, std::string_view name,
-                                double fallback, const Description& description, int depth) {
-  if (const Parameter* t = p.texture(name))
-    return evaluate(t->texture, description, p.diagnostics(), depth + 1);
-  if (entry.kind == "color") return p.triple(name, ParameterType::kColor, glm::dvec3(fallback));
-  return glm::dvec3(double(p.number(name, float(fallback))));
+const TextureClass* find_class(std::string_view name) {
+  for (const auto family : kFamilies)
+    for (const TextureClass& candidate : family())
+      if (candidate.name == name) return &candidate;
+  return nullptr;
 }
 
-/// Mean over the picture of (gain * texel)^gamma; white, and an error, if it cannot be read.
-glm::dvec3 mean_of_image(Parameters& p, const TextureEntry& entry, const Description& description) {
-  const std::string name = p.text("filename", "");
-  const auto gain = double(p.number("gain", 1)), gamma = double(p.number("gamma", 1));
-  const std::string channel = p.text("channel", "mean");
-  p.accept({"filtertype", "wrap", "maxanisotropy", "discardmipmaps", "mapping", "uscale", "vscale",
-            "udelta", "vdelta", "v1", "v2"});
-  const SourceLoc loc = p.loc("filename");
-  const std::string path = find_data_file(name, loc, description, p.diagnostics());
-  if (path.empty()) {
-    p.diagnostics().error(loc, fmt::format("image \"{}\" not found: white is used", name));
-    return glm::dvec3(1.);
-  }
-  OIIO::ImageBuf image(path);
-  if (!image.read(0, 0, true, OIIO::TypeDesc::FLOAT) || image.nchannels() < 1) {
-    p.diagnostics().error(loc, fmt::format("image \"{}\" cannot be read ({}): white is used", name,
-                                           image.geterror()));
-    return glm::dvec3(1.);
-  }
-  const int channels = image.nchannels();
-  const auto* texels = static_cast<const float*>(image.localpixels());
-  const auto count = size_t(image.spec().image_pixels());
-  const int green = channels >= 3 ? 1 : 0, blue = channels >= 3 ? 2 : 0;
-  glm::dvec3 sum(0.);
-  double alpha = 0;
-  const auto decode = [&](float texel) {
-    const double value = std::pow(std::max(0., gain * double(texel)), gamma);
-    return std::isfinite(value) ? value : 0.;
-  };
-  for (size_t i = 0; i < count; ++i) {
-    const float* texel = texels + i * size_t(channels);
-    sum += glm::dvec3(decode(texel[0]), decode(texel[green]), decode(texel[blue]));
-    alpha += channels == 4 ? decode(texel[3]) : channels == 2 ? decode(texel[1]) : 1;
-  }
-  const glm::dvec3 mean = sum / double(count);
-  if (entry.kind == "color") return mean;
-  if (channel == "red") return glm::dvec3(mean.x);
-  if (channel == "green") return glm::dvec3(mean.y);
-  if (channel == "blue") return glm::dvec3(mean.z);
-  if (channel == "alpha") return glm::dvec3(alpha / double(count));
-  if (channel == "colored_mean") return glm::dvec3(luminance(mean));
-  return glm::dvec3((mean.x + mean.y + mean.z) / 3);
+std::vector<std::string_view> class_names() {
+  std::vector<std::string_view> names;
+  for (const auto family : kFamilies)
+    for (const TextureClass& candidate : family()) names.push_back(candidate.name);
+  return names;
 }
 
-/// Empty, and reported, when the texture has no single value.
-std::optional<glm::dvec3> evaluate(uint32_t row, const Description& description,
-                                   Diagnostics& diagnostics, int depth) {
-  if (row >= description.textures.size()) return std::nullopt;  // reported by the parser
-  const TextureEntry& entry = description.textures[row];
-  const std::string& type = entry.plugin.type;
-  Parameters p(entry.plugin, fmt::format("texture \"{}\"", entry.name), diagnostics);
-  if (depth > kMaxTextureDepth) {
-    diagnostics.error(entry.plugin.loc,
-                      fmt::format("texture \"{}\" is made of itself", entry.name));
-    return std::nullopt;
-  }
-  const auto in = [&](std::string_view name, double fallback) {
-    return input(p, entry, name, fallback, description, depth);
-  };
-  std::optional<glm::dvec3> value;
-  if (type == "constant") {
-    // A float texture may hold a color and the reverse: the conversion rules of Parameters apply.
-    value = entry.kind == "color" ? p.triple("value", ParameterType::kColor, glm::dvec3(1.))
-                                  : glm::dvec3(double(p.number("value", 1)));
-  } else if (type == "scale" || type == "add" || type == "subtract") {
-    const auto a = in("tex1", 1), b = in("tex2", 1);
-    if (a && b) value = type == "scale" ? *a * *b : type == "add" ? *a + *b : *a - *b;
-  } else if (type == "mix") {
-    const auto a = in("tex1", 0), b = in("tex2", 1);
-    std::optional<glm::dvec3> t;
-    if (const Parameter* amount = p.texture("amount"))
-      t = evaluate(amount->texture, description, diagnostics, depth + 1);
-    else
-      t = glm::dvec3(double(p.number("amount", .5f)));
-    if (a && b && t) value = *a + (*b - *a) * luminance(*t);
-  } else if (type == "imagemap") {
-    diagnostics.warning(
-        entry.plugin.loc,
-        fmt::format("texture \"{}\": image textures are not yet supported: the mean "
-                    "colour of the image is used",
-                    entry.name));
-    value = mean_of_image(p, entry, description);
-  } else {
-    diagnostics.warning(
-        entry.plugin.loc,
-        fmt::format("texture \"{}\": \"{}\" is not yet supported: the default of the "
-                    "parameter that uses it is taken",
-                    entry.name, type));
-    p.accept_all();
-  }
-  p.report_unused();
-  return value;
+/// Weights with which bands give the luminance of what they are on the film.
+glm::dvec3 luminance_of_bands(const ColourModel& colour) {
+  const auto of = [&](const glm::dvec3& bands) { return luminance(to_rgb(bands, colour.film)); };
+  return {of({1, 0, 0}), of({0, 1, 0}), of({0, 0, 1})};
 }
 
 }  // namespace
 
-glm::dvec3 color_parameter(Parameters& parameters, std::string_view name,
-                           const glm::dvec3& fallback, const Description& description) {
-  if (const Parameter* t = parameters.texture(name))
-    return evaluate(t->texture, description, parameters.diagnostics(), 0).value_or(fallback);
-  return parameters.triple(name, ParameterType::kColor, fallback);
+std::optional<TextureValue> TextureCompiler::value(uint32_t row, int depth) {
+  if (row >= description_.textures.size()) return {};  // reported by the parser
+  const TextureEntry& entry = description_.textures[row];
+  if (depth > kMaxTextureDepth) {
+    diagnostics_.error(entry.plugin.loc,
+                       fmt::format("texture \"{}\" is made of itself", entry.name));
+    return {};
+  }
+  if (done_[row]) return *done_[row];
+  Parameters p(entry.plugin, fmt::format("texture \"{}\"", entry.name), diagnostics_);
+  TextureContext context{*this, p, entry, depth};
+  std::optional<TextureValue> made;
+  if (const TextureClass* found = find_class(entry.plugin.type)) {
+    made = found->compile(context);
+  } else {
+    diagnostics_.error(
+        entry.plugin.loc,
+        fmt::format("texture \"{}\": unknown class \"{}\"{}: the default of the "
+                    "parameter that uses it is taken",
+                    entry.name, entry.plugin.type, did_you_mean(entry.plugin.type, class_names())));
+    p.accept_all();
+  }
+  p.report_unused();
+  done_[row] = made;
+  return made;
 }
 
-double float_parameter(Parameters& parameters, std::string_view name, double fallback,
-                       const Description& description) {
-  if (const Parameter* t = parameters.texture(name)) {
-    const auto value = evaluate(t->texture, description, parameters.diagnostics(), 0);
-    return value ? luminance(*value) : fallback;
+std::optional<TextureValue> TextureCompiler::texture(const Parameter& parameter, bool colour,
+                                                     int depth) {
+  std::optional<TextureValue> v = value(parameter.texture, depth);
+  if (!v) return v;
+  const TextureEntry& entry = description_.textures[parameter.texture];
+  if (v->normal_map) {
+    diagnostics_.error(parameter.loc,
+                       fmt::format("texture \"{}\" is a normal map, which only \"bumpmap\" can "
+                                   "take: the default of \"{}\" is used",
+                                   entry.name, parameter.name));
+    return {};
   }
-  return double(parameters.number(name, float(fallback)));
+  if (v->colour == colour) return v;
+  if (colour) {
+    diagnostics_.warning(
+        parameter.loc, fmt::format("texture \"{}\" for \"{}\" is a float texture where a color is "
+                                   "wanted: it is used as a grey",
+                                   entry.name, parameter.name));
+    v->colour = true;  // a node of one channel stands in for three
+    return v;
+  }
+  diagnostics_.warning(parameter.loc,
+                       fmt::format("texture \"{}\" for \"{}\" is a color texture where a float is "
+                                   "wanted: its luminance is used",
+                                   entry.name, parameter.name));
+  if (!v->varies()) return TextureValue::number(luminance(v->constant));
+  const glm::vec3 weights(luminance_of_bands(colour_));
+  if (graph_[v->node].outputs > 1)
+    v->node = graph_.add<WeighParameters>(StepKind::kWeigh, 0, {weights.x, weights.y, weights.z},
+                                          {{v->node, 0}}, 1);
+  v->colour = false;
+  v->constant = glm::dvec3(luminance(v->constant));
+  return v;
+}
+
+std::optional<TextureValue> TextureCompiler::bump(const Parameter& parameter) {
+  const std::optional<TextureValue> v = value(parameter.texture, 0);
+  return v && v->normal_map ? v : texture(parameter, false);
+}
+
+TextureValue TextureCompiler::color(Parameters& p, std::string_view name,
+                                    const glm::dvec3& fallback, int depth) {
+  if (const Parameter* t = p.texture(name)) {
+    const auto v = texture(*t, true, depth);
+    return v ? *v : TextureValue::of_colour(fallback);
+  }
+  return TextureValue::of_colour(p.triple(name, ParameterType::kColor, fallback));
+}
+
+TextureValue TextureCompiler::number(Parameters& p, std::string_view name, double fallback,
+                                     int depth) {
+  if (const Parameter* t = p.texture(name)) {
+    const auto v = texture(*t, false, depth);
+    return v ? *v : TextureValue::number(fallback);
+  }
+  return TextureValue::number(double(p.number(name, float(fallback))));
+}
+
+TextureGraph::Input TextureCompiler::node(const TextureValue& value) {
+  if (value.varies()) return {value.node, 0};
+  glm::dvec3 c = value.constant;
+  // A grey is one number; a colour with a negative channel is bands of differences.
+  const bool grey = !value.colour || (c.x == c.y && c.y == c.z);
+  if (!grey) c = to_bands(c, colour_.reflectance);
+  const glm::vec3 f(c);
+  return {graph_.add<ConstantParameters>(StepKind::kConstant, 0, {f.x, f.y, f.z}, {}, grey ? 1 : 3),
+          0};
+}
+
+// ---- What materials and lights call
+// --------------------------------------------------------------
+
+glm::dvec3 color_parameter(Parameters& p, std::string_view name, const glm::dvec3& fallback,
+                           TextureCompiler& textures) {
+  const TextureValue v = textures.color(p, name, fallback);
+  if (v.varies()) textures.varying().push_back({name, v});
+  return v.constant;
+}
+
+double float_parameter(Parameters& p, std::string_view name, double fallback,
+                       TextureCompiler& textures) {
+  const TextureValue v = textures.number(p, name, fallback);
+  if (v.varies()) textures.varying().push_back({name, v});
+  return v.constant.x;
+}
+
+namespace {
+
+void warn_of_mean(Parameters& p, const TextureCompiler::Varying& varying) {
+  p.diagnostics().warning(p.loc(varying.parameter),
+                          fmt::format("\"{}\" of {} cannot vary over a surface: about the mean of "
+                                      "its texture is used",
+                                      varying.parameter, p.what()));
+}
+
+}  // namespace
+
+glm::dvec3 color_parameter(Parameters& p, std::string_view name, const glm::dvec3& fallback,
+                           const Description& description) {
+  TextureCompiler textures(description, colour_model(ColourMode::kRgb), p.diagnostics(),
+                           ImageStore::kDefaultLimit, TextureUse::kLight);
+  const glm::dvec3 value = color_parameter(p, name, fallback, textures);
+  for (const auto& varying : textures.varying()) warn_of_mean(p, varying);
+  return value;
+}
+
+double float_parameter(Parameters& p, std::string_view name, double fallback,
+                       const Description& description) {
+  TextureCompiler textures(description, colour_model(ColourMode::kRgb), p.diagnostics());
+  const double value = float_parameter(p, name, fallback, textures);
+  for (const auto& varying : textures.varying()) warn_of_mean(p, varying);
+  return value;
 }
 
 }  // namespace yat

@@ -364,12 +364,34 @@ struct FilterView {
 inline constexpr uint32_t kFilterBins = 64;
 inline constexpr uint32_t kFilterQuantiles = 512;
 
+// ---- Textures --------------------------------------------------------------------------------
+
+/// How a level's texels are stored: tiles of 4 x 4 texels, row by row, rows and columns padded to
+/// whole tiles. Channels are r, g, b, a from the low byte or the first word on.
+enum class TexelFormat : uint32_t {
+  kByte1,   ///< four texels a word
+  kByte4,   ///< a word a texel
+  kFloat1,  ///< a word a texel
+  kFloat4,  ///< four words a texel
+};
+
+inline constexpr uint32_t kTexelLevels = 16;
+
+/// All images of the scene.
+struct TexelView {
+  const uint32_t* words = nullptr;
+  const uint32_t* levels = nullptr;  ///< kTexelLevels a row: word where each level begins
+};
+
 // ---- Everything ------------------------------------------------------------------------------
 
 /// A parameter table of one material kind; its record type is the kind's (kernels/materials).
 struct ParameterView {
   const uint32_t* words = nullptr;
   uint32_t count = 0;
+  /// Not null: field f of row i of the chunk is columns[f][i], and `words` is not read. What
+  /// textures have made for a chunk comes so.
+  const uint32_t* const* columns = nullptr;
 };
 
 inline constexpr uint32_t kMaxMaterialKinds = 64;
@@ -384,6 +406,7 @@ struct SceneView {
   /// Of a sphere about the scene-space origin that holds the camera and everything but planes [m]:
   /// shadow rays to distant lights end far outside it.
   float radius = 1;
+  TexelView texels;
   ParameterView parameters[kMaxMaterialKinds];  ///< indexed by MaterialKind
 };
 

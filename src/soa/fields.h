@@ -63,6 +63,20 @@ inline constexpr bool all_fields_listed =
     sizeof(Record<Column>) == field_count<Record> * sizeof(void*) &&
     sizeof(Record<Value>) == field_count<Record> * sizeof(uint32_t);
 
+/// The number of the field with this name. A name that is not there does not compile.
+template <template <template <class> class> class Record>
+consteval uint32_t field_number(std::string_view name) {
+  std::string_view list = Record<Value>::field_list();
+  for (uint32_t number = 0;; ++number) {
+    const std::size_t end = list.find(',');
+    std::string_view field = list.substr(0, end);
+    while (!field.empty() && field.front() == ' ') field.remove_prefix(1);
+    if (field == name) return number;
+    if (end == std::string_view::npos) throw "no such field";
+    list.remove_prefix(end + 1);
+  }
+}
+
 namespace detail {
 template <std::size_t I, class F, class... Records>
 YAT_INLINE constexpr void visit_field(F&& f, Records&&... records) {

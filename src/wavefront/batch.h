@@ -20,6 +20,7 @@
 #include "soa/records.h"
 #include "wavefront/plan.h"
 #include "wavefront/split_rows.h"
+#include "wavefront/textures.h"
 
 namespace yat {
 
@@ -47,6 +48,7 @@ struct Batch {
         chunk_paths(kChunkRows),
         randoms(kChunkRows),
         lights(plan.lights ? kChunkRows : 0),
+        textures(scene, *plan.kernels, kChunkRows),
         child_u(plan.split_levels ? kChunkRows : 0),
         splits(plan.split_levels),
         veils(plan.veils ? batch_rows : 0) {
@@ -94,6 +96,7 @@ struct Batch {
   Table<PathState> chunk_paths;
   Table<Randoms> randoms;
   Table<LightSample> lights;
+  TextureStage textures;
   AlignedArray<float> child_u;    ///< of a chunk: decides between the children of its material
   std::vector<SplitRows> splits;  ///< per level of materials made of others
   VeilRows veils;
@@ -105,7 +108,8 @@ struct Batch {
                    occluded.bytes() + sums.bytes() + slot_sample.bytes() + free_slots.bytes() +
                    finished.bytes() + camera.bytes() + film_u.bytes() + film_v.bytes() +
                    lens_u.bytes() + lens_v.bytes() + surfaces.bytes() + tangents.bytes() +
-                   chunk_paths.bytes() + randoms.bytes() + lights.bytes() + scratch_memory.bytes();
+                   chunk_paths.bytes() + randoms.bytes() + lights.bytes() + textures.bytes() +
+                   scratch_memory.bytes();
     for (int i = 0; i < 2; ++i) total += rays[i].bytes() + paths[i].bytes();
     total += child_u.bytes() + veils.bytes();
     for (const SplitRows& level : splits) total += level.bytes();

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "kernels/strata.h"
+#include "kernels/texture.h"
 #include "wavefront/stages.h"
 
 namespace yat {
@@ -38,6 +39,7 @@ void need_material(const ShadePlan& plan, const KernelTable& k) {
     need(k.split[uint32_t(plan.material)], k, "split");
   else
     need(k.shade[uint32_t(plan.material)], k, "shade");
+  if (plan.program != kNone) need(k.spread_parameters && k.make_derivatives, k, "textures");
 }
 
 void need_kernels(const Plan& plan) {
@@ -83,6 +85,18 @@ void need_kernels(const Plan& plan) {
     need(k.start_veils && k.share_weight && k.pass_veils && k.end_veils, k, "start_veils");
 }
 
+/// "texture map_surface image bands"
+std::string texture_steps(const TextureProgram& program) {
+  std::string text = "texture";
+  if (!program.bump_steps.empty()) text += program.normal_map ? " normals:" : " bump:";
+  for (const TextureStep& step : program.bump_steps)
+    text += fmt::format(" {}", texture_traits(step.kind).name);
+  if (!program.bump_steps.empty() && !program.steps.empty()) text += "; parameters:";
+  for (const TextureStep& step : program.steps)
+    text += fmt::format(" {}", texture_traits(step.kind).name);
+  return text;
+}
+
 }  // namespace
 
 namespace {
@@ -92,6 +106,7 @@ ShadePlan plan_material(const Scene& scene, const MaterialForm& form, bool roule
                         Plan& plan) {
   ShadePlan out;
   out.material = form.kind;
+  out.program = form.program;
   const MaterialTraits traits = material_traits(form.kind);
   out.splits = traits.splits;
   if (out.splits) {
@@ -164,7 +179,7 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
     bin.emission = bin.bin.emissive;
     plan.tangents = plan.tangents || bin.bin.tangents;
     static_cast<ShadePlan&>(bin) =
-        plan_material(scene, {bin.bin.material, bin.bin.split}, roulette, 1, plan);
+        plan_material(scene, {bin.bin.material, bin.bin.split, bin.bin.program}, roulette, 1, plan);
     plan.veils = plan.veils || (plan.lights && bin.bin.passing == Passing::kVeil);
   }
   need_kernels(plan);
@@ -232,6 +247,7 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
                                    kGeometryNames[uint32_t(bin.bin.geometry)]);
     if (bin.bin.tangents) what += ", make_tangents";
     if (bin.emission) what += ", add_emission";
+    if (bin.bin.program != kNone) what += ", " + texture_steps(scene.programs[bin.bin.program]);
     line(Stage::kShade, what + describe_material(plan, bin));
   }
   if (plan.lights) {
@@ -277,6 +293,8 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   skipped(any_bin([](const BinPlan& b) { return b.emission; }), "add_emission",
           "no surface emits light");
   skipped(plan.tangents, "make_tangents", "every material looks the same from all sides");
+  skipped(any_bin([](const ShadePlan& b) { return b.program != kNone; }), "textures",
+          "no material varies over its surface");
   if (!plan.lights)
     skipped(false, "sample_lights, intersect_shadow, add_unoccluded",
             scene.lights.size() ? "paths end at their first vertex" : "no light in the scene");

@@ -16,6 +16,7 @@ enum class Integrator { kPath, kDirect };
 /// What is done with surfaces of one material.
 struct ShadePlan {
   MaterialKind material = MaterialKind::kMatte;
+  uint32_t program = kNone;    ///< row of Scene::programs: textures make its parameters
   bool splits = false;         ///< rows go on to the children, and nothing else is done
   uint32_t child[2] = {};      ///< rows of Plan::children
   bool turned[2] = {};         ///< see MaterialSplit

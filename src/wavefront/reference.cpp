@@ -35,12 +35,12 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
   const CameraStart start = camera_ray(scene, plan, x, y, sample);
   RaySegment ray = start.ray;
   Vec throughput(start.weight), radiance(0.0);
-  double scattered_pdf = 0;  // of the direction under way
-  uint32_t crossed = 0;      // surfaces that the path went through
-  Vec scattered_at(0.0);     // last scattering vertex
-  double passed = 0;         // from there to the ray's origin
+  double scattered_pdf = 0;      // of the direction under way
+  uint32_t crossed = 0;          // surfaces that the path went through
+  Vec scattered_at(ray.origin);  // last scattering vertex
+  double passed = 0;             // from there to the ray's origin
   for (;;) {
-    const std::optional<Point> hit = nearest(scene, ray);
+    std::optional<Point> hit = nearest(scene, ray);
     if (!hit) {
       if (options.hide_environment && vertex == 0) break;
       for (uint32_t i = scene.first_environment; i < scene.lights.size(); ++i) {
@@ -55,7 +55,9 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
     const float child = random_pair(plan.sampler, options.seed, Dimension::kChild, pixel, sample,
                                     crossed << 16 | vertex)
                             .first;
-    const ChosenMaterial chosen = choose_material(scene, *hit, met_outside, child);
+    const double width = footprint(scene, glm::length(hit->position - scattered_at), scattered_pdf,
+                                   std::fabs(glm::dot(hit->ng, wo)));
+    const ChosenMaterial chosen = choose_material(scene, *hit, width, met_outside, child);
     const MaterialKind material = chosen.kind;
 
     if (const double cos = glm::dot(hit->ng, wo); hit->light != kNone && cos > 0) {
@@ -74,12 +76,17 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
     }
     if (vertex >= options.max_depth) break;
 
+    if (scene.bins[hit->bin].program != chosen.program || chosen.row != hit->parameter)
+      bend_normal(scene, scene.bins[hit->bin].program, hit->parameter, *hit, width);
+    bend_normal(scene, chosen.program, chosen.row, *hit, width);
     // Everything on the viewer's side.
     const bool outside = met_outside != chosen.turned;
     const Vec ng = met_outside ? hit->ng : -hit->ng, turned = met_outside ? hit->ns : -hit->ns;
     const Vec up = glm::dot(turned, wo) > 0 ? turned : ng;
     const Axes axes = scene.bins[hit->bin].tangents ? Axes(up, tangent_of(*hit)) : Axes(up);
-    const Bsdf bsdf(scene, material, chosen.row, {axes.to_local(wo), outside, hit->t + passed});
+    const Bsdf bsdf(material,
+                    material_parameters(scene, material, chosen.program, chosen.row, *hit, width),
+                    {axes.to_local(wo), outside, hit->t + passed});
     const auto leave = [&](const Vec& wi) {
       return hit->position + (glm::dot(ng, wi) > 0 ? 1.0 : -1.0) * hit->offset * ng;
     };

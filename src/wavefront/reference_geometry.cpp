@@ -1,4 +1,5 @@
 #include <cmath>
+#include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
 #include <numbers>
@@ -59,13 +60,18 @@ double meet(const PlaneRow<Value>& plane, const Vec& origin, const Vec& directio
   return (double(plane.distance) - glm::dot(normal, origin)) / glm::dot(normal, direction);
 }
 
-/// dp/du of a triangle with these edges, of any length; 0 where its coordinates are degenerate.
-Vec texture_direction(const Triangle& t, const TriangleVertexRow<Value>& w) {
-  const double du1 = double(w.u1) - double(w.u0), du2 = double(w.u2) - double(w.u0);
-  const double dv1 = double(w.v1) - double(w.v0), dv2 = double(w.v2) - double(w.v0);
-  const double determinant = du1 * dv2 - dv1 * du2;
-  if (determinant == 0) return Vec(0.0);
-  return (dv2 * t.e1 - dv1 * t.e2) / determinant;
+/// u, v and the derivatives of the position by them: what solves e1 = u1 du + v1 dv, e2 likewise.
+void set_texture_coordinates(const TriangleVertexRow<Value>& n, const TriangleHit& hit,
+                             const Triangle& triangle, Point& point) {
+  const double b0 = 1 - hit.u - hit.v;
+  point.u = b0 * double(n.u0) + hit.u * double(n.u1) + hit.v * double(n.u2);
+  point.v = b0 * double(n.v0) + hit.u * double(n.v1) + hit.v * double(n.v2);
+  const glm::dmat2 uv(glm::dvec2(n.u1, n.v1) - glm::dvec2(n.u0, n.v0),
+                      glm::dvec2(n.u2, n.v2) - glm::dvec2(n.u0, n.v0));
+  if (glm::determinant(uv) == 0) return;
+  const glm::dmat2 back = glm::inverse(uv);
+  point.along = point.du = back[0][0] * triangle.e1 + back[0][1] * triangle.e2;
+  point.dv = back[1][0] * triangle.e1 + back[1][1] * triangle.e2;
 }
 
 Point triangle_point(const Scene& scene, uint32_t prim, const TriangleHit& hit) {
@@ -77,6 +83,7 @@ Point triangle_point(const Scene& scene, uint32_t prim, const TriangleHit& hit) 
   point.ng = point.ns = glm::normalize(glm::cross(triangle.e1, triangle.e2));
   point.offset = kRounding * double(row.extent);
   point.bin = scene.prim_bin[prim];
+  point.prim = prim;
   point.parameter = row.parameter;
   point.light = row.light;
   const GeometryKind kind = scene.bins[point.bin].geometry;
@@ -86,7 +93,7 @@ Point triangle_point(const Scene& scene, uint32_t prim, const TriangleHit& hit) 
                     hit.u * Vec(n.n1_x, n.n1_y, n.n1_z) + hit.v * Vec(n.n2_x, n.n2_y, n.n2_z);
     const double side = glm::dot(sum, point.ng);
     if (side != 0) point.ns = glm::normalize(sum) * (side < 0 ? -1.0 : 1.0);
-    point.along = texture_direction(triangle, n);
+    set_texture_coordinates(n, hit, triangle, point);
   }
   return point;
 }
@@ -130,6 +137,7 @@ Point instance_point(const Scene& scene, const PlacedObject& placed, uint32_t tr
   point.ng = point.ns = side * glm::normalize(glm::cross(world.e1, world.e2));
   point.offset = kRounding * double(placed.row.extent);
   point.bin = shape.bin;
+  point.prim = triangle;
   point.parameter = shape.parameter;
   point.light = row.light == kNone ? kNone : shape.light + row.light;
   if (scene.bins[shape.bin].geometry == GeometryKind::kTriangleVertex) {
@@ -138,8 +146,8 @@ Point instance_point(const Scene& scene, const PlacedObject& placed, uint32_t tr
                     hit.u * Vec(n.n1_x, n.n1_y, n.n1_z) + hit.v * Vec(n.n2_x, n.n2_y, n.n2_z);
     const Vec ns = glm::normalize(glm::inverse(glm::transpose(placed.linear)) * sum);
     const double cosine = glm::dot(ns, point.ng);
-    point.along = texture_direction(world, n);
     if (glm::dot(sum, sum) > 0) point.ns = cosine < 0 ? glm::normalize(ns - cosine * point.ng) : ns;
+    set_texture_coordinates(n, hit, world, point);
   }
   return point;
 }
@@ -188,6 +196,7 @@ std::optional<Point> nearest(const Scene& scene, const RaySegment& ray) {
     t_max = t;
     best = sphere_point(row, ray, t);
     best->bin = scene.prim_bin[prim];
+    best->prim = prim;
   }
   for (uint32_t i = 0; i < scene.planes.size(); ++i, ++prim) {
     const PlaneRow<Value> row = scene.planes.row(i);
@@ -196,6 +205,7 @@ std::optional<Point> nearest(const Scene& scene, const RaySegment& ray) {
     t_max = t;
     best = plane_point(row, ray, t);
     best->bin = scene.prim_bin[prim];
+    best->prim = prim;
   }
   for (uint32_t i = 0; i < scene.instances.rows.size(); ++i) {
     const PlacedObject placed(scene, i);

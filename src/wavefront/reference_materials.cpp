@@ -4,18 +4,23 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace yat::reference {
 
 namespace {
 
-/// Calls visit with the record of a material row.
+/// Calls visit with the record that these words are.
 template <class Visit>
-auto with_parameters(const Scene& scene, MaterialKind kind, uint32_t row, Visit&& visit) {
+auto with_parameters(MaterialKind kind, const std::vector<uint32_t>& words, Visit&& visit) {
+  const auto read = [&]<template <template <class> class> class Record>(Record<Value> out) {
+    for_each_field([&](auto index, auto& field) { std::memcpy(&field, &words[index], 4); }, out);
+    return visit(out);
+  };
   switch (kind) {
 #define YAT_MATERIAL(file, Type) \
   case MaterialKind::k##Type:    \
-    return visit(parameters<Type##Parameters>(scene, kind, row));
+    return read(Type##Parameters<Value>{});
     YAT_MATERIALS(YAT_MATERIAL)
 #undef YAT_MATERIAL
     case MaterialKind::kCount:
@@ -35,7 +40,7 @@ Vec mirrored(const Vec& wo) {
 }
 
 Vec Bsdf::evaluate(const Vec& wi) const {
-  return with_parameters(scene_, kind_, row_, [&](const auto& p) {
+  return with_parameters(kind_, parameters_, [&](const auto& p) {
     if constexpr (requires { reference::evaluate(p, view_, wi); })
       return reference::evaluate(p, view_, wi);
     else
@@ -44,7 +49,7 @@ Vec Bsdf::evaluate(const Vec& wi) const {
 }
 
 double Bsdf::pdf(const Vec& wi) const {
-  return with_parameters(scene_, kind_, row_, [&](const auto& p) {
+  return with_parameters(kind_, parameters_, [&](const auto& p) {
     if constexpr (requires { reference::pdf(p, view_, wi); })
       return reference::pdf(p, view_, wi);
     else
@@ -53,7 +58,7 @@ double Bsdf::pdf(const Vec& wi) const {
 }
 
 Bounce Bsdf::sample(double lobe, double u, double v) const {
-  return with_parameters(scene_, kind_, row_, [&](const auto& p) {
+  return with_parameters(kind_, parameters_, [&](const auto& p) {
     if constexpr (requires { reference::sample(p, view_, lobe, u, v); })
       return reference::sample(p, view_, lobe, u, v);
     else

@@ -8,6 +8,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "scene/compile.h"
 #include "wavefront/plan.h"
@@ -27,8 +29,11 @@ struct Point {
   Vec ng, ns;     ///< unit; the shape's outside
   Vec along;      ///< dp/du of any length, or 0
   double offset;  ///< what a ray that leaves must keep off: rounding of this arithmetic
+  double u, v;    ///< texture coordinates
+  Vec du, dv;     ///< dp/du, dp/dv; 0 where there are none
   uint32_t bin;   ///< row of Scene::bins
   uint32_t parameter, light;
+  uint32_t prim;  ///< as in Hit
 };
 
 struct CameraStart {
@@ -68,6 +73,17 @@ Vec cosine_hemisphere(double u, double v);
 /// Uniform in the cone with 1 - cos(half angle) = measure.
 Vec cone(double measure, double u, double v);
 
+// ---- Textures: reference_textures.h ------------------------------------------------------------
+
+/// Diameter of what a ray stands for where it meets a surface: `distance` from the last scattering
+/// vertex, which chose it with density pdf (0: a pixel's width from the camera), under this cosine.
+double footprint(const Scene& scene, double distance, double pdf, double cosine);
+/// Bends the shading normal as the material's bump or normal map says.
+void bend_normal(const Scene& scene, uint32_t program, uint32_t row, Point& point, double width);
+/// The record of the material there, with what textures make of it. width: footprint().
+std::vector<uint32_t> material_parameters(const Scene& scene, MaterialKind kind, uint32_t program,
+                                          uint32_t row, const Point& point, double width);
+
 // ---- Materials: reference_materials.h ----------------------------------------------------------
 
 struct Bounce {
@@ -83,33 +99,34 @@ struct LocalView {
   double distance = 0;  ///< from the last scattering vertex or the camera [m]
 };
 
-/// A material row seen from somewhere.
+/// A material seen from somewhere.
 class Bsdf {
  public:
-  Bsdf(const Scene& scene, MaterialKind kind, uint32_t row, const LocalView& view)
-      : scene_(scene), kind_(kind), row_(row), view_(view) {}
+  /// parameters: its record (material_parameters).
+  Bsdf(MaterialKind kind, std::vector<uint32_t> parameters, const LocalView& view)
+      : kind_(kind), parameters_(std::move(parameters)), view_(view) {}
   Vec evaluate(const Vec& wi) const;
   double pdf(const Vec& wi) const;
   Bounce sample(double lobe, double u, double v) const;
 
  private:
-  const Scene& scene_;
   MaterialKind kind_;
-  uint32_t row_;
+  std::vector<uint32_t> parameters_;
   LocalView view_;
 };
 
 /// What a bin's material is at a point: one of its children, if it is made of others.
 struct ChosenMaterial {
   MaterialKind kind;
+  uint32_t program;  ///< row of Scene::programs, or kNone
   uint32_t row;
   bool turned;  ///< its outside is the surface's inside
 };
 /// u in [0, 1) decides.
-ChosenMaterial choose_material(const Scene& scene, const Point& point, bool outside, float u);
+ChosenMaterial choose_material(const Scene& scene, const Point& point, double width, bool outside,
+                               float u);
 
-// ---- Lights
-// --------------------------------------------------------------------------------------
+// ---- Lights ------------------------------------------------------------------------------------
 
 struct LightPoint {
   Vec wi{0.0};        ///< unit, towards the light

@@ -218,8 +218,19 @@ void Worker::shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end) {
   }
 }
 
+ParameterView Worker::parameters_of(const ShadePlan& plan, const ChunkRows& rows) {
+  if (plan.program == kNone) return view_.parameters[uint32_t(plan.material)];
+  clock_.enter(Stage::kTexture, rows.n);
+  const ParameterView made = batch_.textures.run(
+      plan.program,
+      {view_, rows.geometry, rows.order, rows.instance, rows.bendable, rows.paths, rows.n});
+  count(Stage::kTexture, rows.n);
+  return made;
+}
+
 void Worker::shade_rows(const ShadePlan& plan, const ChunkRows& rows) {
   const uint32_t n = rows.n;
+  const ParameterView parameters = parameters_of(plan, rows);
   if (features_.active() && !material_traits(plan.material).see_through) {
     features_.record_surfaces(rows.surfaces, rows.paths, batch_.sums.columns(), n);
     features_.turn_indirect(rows.paths.depth, rows.slots, n);
@@ -259,11 +270,10 @@ void Worker::shade_rows(const ShadePlan& plan, const ChunkRows& rows) {
   }
 
   clock_.enter(Stage::kShade, n);
-  const uint32_t material = uint32_t(plan.material);
   const uint32_t first_path = out_.path_count;
-  kernels_.shade[material](
-      {rows.surfaces, rows.paths, drawn, lights, view_.parameters[material], rows.tangents},
-      plan_.transport, out_, counted_.drops, n);
+  kernels_.shade[uint32_t(plan.material)](
+      {rows.surfaces, rows.paths, drawn, lights, parameters, rows.tangents}, plan_.transport, out_,
+      counted_.drops, n);
   if (features_.active())
     features_.record_albedo(out_.paths, batch_.sums.columns(), first_path, out_.path_count);
   count(Stage::kShade, n);
@@ -271,11 +281,12 @@ void Worker::shade_rows(const ShadePlan& plan, const ChunkRows& rows) {
 
 void Worker::shade_split(const ShadePlan& plan, const ChunkRows& rows, const float* u,
                          uint32_t level) {
+  const ParameterView parameters = parameters_of(plan, rows);
   clock_.enter(Stage::kSort, rows.n);
   SplitRows& split = batch_.splits[level];
-  const uint32_t material = uint32_t(plan.material);
-  kernels_.split[material](view_.parameters[material], rows.surfaces, false, split.share.data(),
-                           split.parameter[0].data(), split.parameter[1].data(), rows.n);
+  kernels_.split[uint32_t(plan.material)](parameters, rows.surfaces, false, split.share.data(),
+                                          split.parameter[0].data(), split.parameter[1].data(),
+                                          rows.n);
   kernels_.choose_child(split.share.data(), u, split.child.data(), split.left.data(), rows.n);
   uint32_t taken[2] = {};
   for (uint32_t i = 0; i < rows.n; ++i) {
@@ -292,8 +303,19 @@ void Worker::shade_split(const ShadePlan& plan, const ChunkRows& rows, const flo
                        plan.turned[c], split.surfaces.columns(), split.paths.columns(),
                        split.u.data(), taken[c]);
     const ShadePlan& child = plan_.children[plan.child[c]];
-    ChunkRows own{
-        split.surfaces.view(), split.paths.view(), {}, split.paths.columns().slot, taken[c]};
+    ChunkRows own{.surfaces = split.surfaces.view(),
+                  .bendable = split.surfaces.columns(),
+                  .paths = split.paths.view(),
+                  .tangents = {},
+                  .slots = split.paths.columns().slot,
+                  .geometry = rows.geometry,
+                  .order = nullptr,
+                  .instance = rows.instance,
+                  .n = taken[c]};
+    if (rows.instance) {
+      for (uint32_t i = 0; i < taken[c]; ++i) split.hit[i] = rows.order[split.order[c][i]];
+      own.order = split.hit.data();
+    }
     if (rows.tangents.x) {
       const Tangent<Column>& to = split.tangents.columns();
       for (uint32_t i = 0; i < taken[c]; ++i) {

@@ -87,12 +87,18 @@ class Worker {
   /// Dense rows of one material.
   struct ChunkRows {
     Surface<ConstColumn> surfaces;
+    Surface<Column> bendable;  ///< the same, for bump maps
     PathState<ConstColumn> paths;
     Tangent<ConstColumn> tangents;  ///< null columns where no material needs them
     uint32_t* slots;                ///< those of `paths`, to be changed
+    GeometryKind geometry;
+    const uint32_t* order;     ///< rows of the hits; for instances only
+    const uint32_t* instance;  ///< of all hits; null: not of shared objects
     uint32_t n;
   };
   void shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end);
+  /// The material's table, or what its textures make for these rows (until the next call).
+  ParameterView parameters_of(const ShadePlan& plan, const ChunkRows& rows);
   void shade_rows(const ShadePlan& plan, const ChunkRows& rows);
   /// u: per row, decides between the children.
   void shade_split(const ShadePlan& plan, const ChunkRows& rows, const float* u, uint32_t level);
@@ -106,8 +112,8 @@ class Worker {
   uint32_t pass_veil(const BinPlan& bin, uint32_t side, uint32_t begin, uint32_t end,
                      uint32_t count);
   /// Adds to VeilRows::r, g, b what surfaces of this material let pass of `weight`.
-  void add_passing(const ShadePlan& plan, const Surface<ConstColumn>& surfaces, bool turned,
-                   const float* weight, uint32_t n, uint32_t level);
+  void add_passing(const ShadePlan& plan, GeometryKind geometry, const Surface<Column>& surfaces,
+                   bool turned, const float* weight, uint32_t n, uint32_t level);
   void accumulate();
   /// row: of SampleSum, of a path that has ended.
   void flush(uint32_t row);

@@ -66,31 +66,37 @@ uint32_t Worker::pass_veil(const BinPlan& bin, uint32_t side, uint32_t begin, ui
       batch_.surfaces.columns(), batch_.chunk_paths.columns(), n);
   std::fill_n(v.weight.data(), n, 1.f);
   for (AlignedArray<float>* sum : {&v.r, &v.g, &v.b}) std::fill_n(sum->data(), n, 0.f);
-  add_passing(bin, batch_.surfaces.view(), false, v.weight.data(), n, 0);
+  add_passing(bin, bin.bin.geometry, batch_.surfaces.columns(), false, v.weight.data(), n, 0);
   return kernels_.pass_veils(batch_.surfaces.view(), batch_.chunk_paths.view(), v.r.data(),
                              v.g.data(), v.b.data(), v.rays[side ^ 1].columns(),
                              v.paths[side ^ 1].columns(), count, n);
 }
 
-void Worker::add_passing(const ShadePlan& plan, const Surface<ConstColumn>& surfaces, bool turned,
-                         const float* weight, uint32_t n, uint32_t level) {
+void Worker::add_passing(const ShadePlan& plan, GeometryKind geometry,
+                         const Surface<Column>& surfaces, bool turned, const float* weight,
+                         uint32_t n, uint32_t level) {
   VeilRows& v = batch_.veils;
   const uint32_t material = uint32_t(plan.material);
+  const auto veil = kernels_.veil[material];
+  if (!plan.splits && !veil) return;
+  const Surface<ConstColumn> seen = as_const_columns<Surface>(surfaces);
+  ParameterView parameters = view_.parameters[material];
+  if (plan.program != kNone)
+    parameters = batch_.textures.run(
+        plan.program, {view_, geometry, nullptr, nullptr, surfaces, batch_.chunk_paths.view(), n});
   if (!plan.splits) {
-    if (const auto veil = kernels_.veil[material])
-      veil(view_.parameters[material], surfaces, turned, weight, v.r.data(), v.g.data(), v.b.data(),
-           n);
+    veil(parameters, seen, turned, weight, v.r.data(), v.g.data(), v.b.data(), n);
     return;
   }
   SplitRows& split = batch_.splits[level];
-  kernels_.split[material](view_.parameters[material], surfaces, turned, split.share.data(),
-                           split.parameter[0].data(), split.parameter[1].data(), n);
+  kernels_.split[material](parameters, seen, turned, split.share.data(), split.parameter[0].data(),
+                           split.parameter[1].data(), n);
   kernels_.share_weight(weight, split.share.data(), split.weight[0].data(), split.weight[1].data(),
                         n);
   for (uint32_t c = 0; c < 2; ++c) {
-    Surface<ConstColumn> own = surfaces;
+    Surface<Column> own = surfaces;
     own.parameter = split.parameter[c].data();
-    add_passing(plan_.children[plan.child[c]], own, turned != plan.turned[c],
+    add_passing(plan_.children[plan.child[c]], geometry, own, turned != plan.turned[c],
                 split.weight[c].data(), n, level + 1);
   }
 }

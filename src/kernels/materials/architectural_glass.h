@@ -21,11 +21,16 @@ struct ArchitecturalGlassParameters {
 };
 static_assert(all_fields_listed<ArchitecturalGlassParameters>);
 
+inline constexpr TexturedField kArchitecturalGlassTextured[] = {
+    textured_colour<ArchitecturalGlassParameters>("Kr", "kr_r"),
+    textured_colour<ArchitecturalGlassParameters>("Kt", "kt_r"),
+    textured_number<ArchitecturalGlassParameters>("index", "index", .01f, 100)};
 inline constexpr MaterialTraits kArchitecturalGlassTraits{.name = "architectural_glass",
                                                           .delta = true,
                                                           .see_through = false,
                                                           .needs_lobe = true,
-                                                          .needs_direction = false};
+                                                          .needs_direction = false,
+                                                          .textured = kArchitecturalGlassTextured};
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {

@@ -18,11 +18,15 @@ struct GlassParameters {
 };
 static_assert(all_fields_listed<GlassParameters>);
 
+inline constexpr TexturedField kGlassTextured[] = {
+    textured_colour<GlassParameters>("Kr", "kr_r"), textured_colour<GlassParameters>("Kt", "kt_r"),
+    textured_number<GlassParameters>("index", "index", .01f, 100)};
 inline constexpr MaterialTraits kGlassTraits{.name = "glass",
                                              .delta = true,
                                              .see_through = false,
                                              .needs_lobe = true,
-                                             .needs_direction = false};
+                                             .needs_direction = false,
+                                             .textured = kGlassTextured};
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {

@@ -18,11 +18,16 @@ struct GlassFilmParameters {
 };
 static_assert(all_fields_listed<GlassFilmParameters>);
 
+inline constexpr TexturedField kGlassFilmTextured[] = {
+    textured_colour<GlassFilmParameters>("Kr", "kr_r"),
+    textured_colour<GlassFilmParameters>("Kt", "kt_r"),
+    textured_number<GlassFilmParameters>("index", "index", .01f, 100)};
 inline constexpr MaterialTraits kGlassFilmTraits{.name = "glass_film",
                                                  .delta = true,
                                                  .see_through = false,
                                                  .needs_lobe = true,
-                                                 .needs_direction = false};
+                                                 .needs_direction = false,
+                                                 .textured = kGlassFilmTextured};
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {

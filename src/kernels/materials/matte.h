@@ -13,11 +13,13 @@ struct MatteParameters {
 };
 static_assert(all_fields_listed<MatteParameters>);
 
+inline constexpr TexturedField kMatteTextured[] = {textured_colour<MatteParameters>("Kd", "kd_r")};
 inline constexpr MaterialTraits kMatteTraits{.name = "matte",
                                              .delta = false,
                                              .see_through = false,
                                              .needs_lobe = false,
-                                             .needs_direction = true};
+                                             .needs_direction = true,
+                                             .textured = kMatteTextured};
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {

@@ -19,11 +19,16 @@ struct MatteTranslucentParameters {
 };
 static_assert(all_fields_listed<MatteTranslucentParameters>);
 
+inline constexpr TexturedField kMatteTranslucentTextured[] = {
+    textured_colour<MatteTranslucentParameters>("Kr", "kr_r"),
+    textured_colour<MatteTranslucentParameters>("Kt", "kt_r"),
+    textured_number<MatteTranslucentParameters>("sigma", "sigma", 0, 90)};
 inline constexpr MaterialTraits kMatteTranslucentTraits{.name = "matte_translucent",
                                                         .delta = false,
                                                         .see_through = false,
                                                         .needs_lobe = true,
-                                                        .needs_direction = true};
+                                                        .needs_direction = true,
+                                                        .textured = kMatteTranslucentTextured};
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {

@@ -15,11 +15,15 @@ struct MetalParameters {
 };
 static_assert(all_fields_listed<MetalParameters>);
 
+inline constexpr TexturedField kMetalTextured[] = {
+    textured_number<MetalParameters>("uroughness", "uroughness", 0, 1),
+    textured_number<MetalParameters>("vroughness", "vroughness", 0, 1)};
 inline constexpr MaterialTraits kMetalTraits{.name = "metal",
                                              .delta = false,
                                              .see_through = false,
                                              .needs_lobe = false,
-                                             .needs_direction = true};
+                                             .needs_direction = true,
+                                             .textured = kMetalTextured};
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {

@@ -14,11 +14,17 @@ struct MetalColourParameters {
 };
 static_assert(all_fields_listed<MetalColourParameters>);
 
+inline constexpr TexturedField kMetalColourTextured[] = {
+    textured_colour<MetalColourParameters>("Kr", "kr_r"),
+    textured_colour<MetalColourParameters>("fresnel", "kr_r"),
+    textured_number<MetalColourParameters>("uroughness", "uroughness", 0, 1),
+    textured_number<MetalColourParameters>("vroughness", "vroughness", 0, 1)};
 inline constexpr MaterialTraits kMetalColourTraits{.name = "metal_colour",
                                                    .delta = false,
                                                    .see_through = false,
                                                    .needs_lobe = false,
-                                                   .needs_direction = true};
+                                                   .needs_direction = true,
+                                                   .textured = kMetalColourTextured};
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {

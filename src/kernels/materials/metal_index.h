@@ -16,11 +16,15 @@ struct MetalIndexParameters {
 };
 static_assert(all_fields_listed<MetalIndexParameters>);
 
+inline constexpr TexturedField kMetalIndexTextured[] = {
+    textured_number<MetalIndexParameters>("uroughness", "uroughness", 0, 1),
+    textured_number<MetalIndexParameters>("vroughness", "vroughness", 0, 1)};
 inline constexpr MaterialTraits kMetalIndexTraits{.name = "metal_index",
                                                   .delta = false,
                                                   .see_through = false,
                                                   .needs_lobe = false,
-                                                  .needs_direction = true};
+                                                  .needs_direction = true,
+                                                  .textured = kMetalIndexTextured};
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {

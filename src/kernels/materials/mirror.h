@@ -13,11 +13,14 @@ struct MirrorParameters {
 };
 static_assert(all_fields_listed<MirrorParameters>);
 
+inline constexpr TexturedField kMirrorTextured[] = {
+    textured_colour<MirrorParameters>("Kr", "kr_r")};
 inline constexpr MaterialTraits kMirrorTraits{.name = "mirror",
                                               .delta = true,
                                               .see_through = false,
                                               .needs_lobe = false,
-                                              .needs_direction = false};
+                                              .needs_direction = false,
+                                              .textured = kMirrorTextured};
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {

@@ -16,11 +16,14 @@ struct MirrorFilmParameters {
 };
 static_assert(all_fields_listed<MirrorFilmParameters>);
 
+inline constexpr TexturedField kMirrorFilmTextured[] = {
+    textured_colour<MirrorFilmParameters>("Kr", "kr_r")};
 inline constexpr MaterialTraits kMirrorFilmTraits{.name = "mirror_film",
                                                   .delta = true,
                                                   .see_through = false,
                                                   .needs_lobe = false,
-                                                  .needs_direction = false};
+                                                  .needs_direction = false,
+                                                  .textured = kMirrorFilmTextured};
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {

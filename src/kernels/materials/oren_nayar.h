@@ -14,11 +14,15 @@ struct OrenNayarParameters {
 };
 static_assert(all_fields_listed<OrenNayarParameters>);
 
+inline constexpr TexturedField kOrenNayarTextured[] = {
+    textured_colour<OrenNayarParameters>("Kd", "kd_r"),
+    textured_number<OrenNayarParameters>("sigma", "sigma", 0, 90)};
 inline constexpr MaterialTraits kOrenNayarTraits{.name = "oren_nayar",
                                                  .delta = false,
                                                  .see_through = false,
                                                  .needs_lobe = false,
-                                                 .needs_direction = true};
+                                                 .needs_direction = true,
+                                                 .textured = kOrenNayarTextured};
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {

@@ -20,11 +20,18 @@ struct RoughGlassParameters {
 };
 static_assert(all_fields_listed<RoughGlassParameters>);
 
+inline constexpr TexturedField kRoughGlassTextured[] = {
+    textured_colour<RoughGlassParameters>("Kr", "kr_r"),
+    textured_colour<RoughGlassParameters>("Kt", "kt_r"),
+    textured_number<RoughGlassParameters>("uroughness", "uroughness", 0, 1),
+    textured_number<RoughGlassParameters>("vroughness", "vroughness", 0, 1),
+    textured_number<RoughGlassParameters>("index", "index", 1.001f, 100)};
 inline constexpr MaterialTraits kRoughGlassTraits{.name = "rough_glass",
                                                   .delta = false,
                                                   .see_through = false,
                                                   .needs_lobe = true,
-                                                  .needs_direction = true};
+                                                  .needs_direction = true,
+                                                  .textured = kRoughGlassTextured};
 
 /// LuxRender's own clamp.
 inline constexpr float kLeastGlassRoughness = .006f;

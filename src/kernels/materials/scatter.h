@@ -19,11 +19,14 @@ struct ScatterParameters {
 };
 static_assert(all_fields_listed<ScatterParameters>);
 
+inline constexpr TexturedField kScatterTextured[] = {
+    textured_colour<ScatterParameters>("Kd", "kd_r")};
 inline constexpr MaterialTraits kScatterTraits{.name = "scatter",
                                                .delta = false,
                                                .see_through = false,
                                                .needs_lobe = false,
-                                               .needs_direction = true};
+                                               .needs_direction = true,
+                                               .textured = kScatterTextured};
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {

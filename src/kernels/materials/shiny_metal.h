@@ -19,11 +19,17 @@ struct ShinyMetalParameters {
 };
 static_assert(all_fields_listed<ShinyMetalParameters>);
 
+inline constexpr TexturedField kShinyMetalTextured[] = {
+    textured_colour<ShinyMetalParameters>("Kr", "kr_r"),
+    textured_colour<ShinyMetalParameters>("Ks", "ks_r"),
+    textured_number<ShinyMetalParameters>("uroughness", "uroughness", 0, 1),
+    textured_number<ShinyMetalParameters>("vroughness", "vroughness", 0, 1)};
 inline constexpr MaterialTraits kShinyMetalTraits{.name = "shiny_metal",
                                                   .delta = false,
                                                   .see_through = false,
                                                   .needs_lobe = true,
-                                                  .needs_direction = true};
+                                                  .needs_direction = true,
+                                                  .textured = kShinyMetalTextured};
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {

@@ -20,11 +20,18 @@ struct VelvetParameters {
 };
 static_assert(all_fields_listed<VelvetParameters>);
 
+inline constexpr TexturedField kVelvetTextured[] = {
+    textured_colour<VelvetParameters>("Kd", "kd_r"),
+    textured_number<VelvetParameters>("p1", "p1", -1e6f, 1e6f),
+    textured_number<VelvetParameters>("p2", "p2", -1e6f, 1e6f),
+    textured_number<VelvetParameters>("p3", "p3", -1e6f, 1e6f),
+    textured_number<VelvetParameters>("thickness", "thickness", 0, 1)};
 inline constexpr MaterialTraits kVelvetTraits{.name = "velvet",
                                               .delta = false,
                                               .see_through = false,
                                               .needs_lobe = false,
-                                              .needs_direction = true};
+                                              .needs_direction = true,
+                                              .textured = kVelvetTextured};
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {

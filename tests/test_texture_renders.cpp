@@ -1,0 +1,179 @@
+// Textured renders: against the oracle path by path, and closed forms.
+
+#include <filesystem>
+
+#include "oracle.h"
+#include "per_isa.h"
+#include "texture_images.h"
+
+namespace yat {
+namespace {
+
+class TextureRenders : public PerIsa {};
+YAT_INSTANTIATE_PER_ISA(TextureRenders);
+
+std::string folder() {
+  return (std::filesystem::path(YAT_TEST_OUTPUT_DIR) / "texture_renders").string();
+}
+
+Scene compile_in_folder(const std::string& text, const KernelTable& kernels,
+                        ColourMode colour = ColourMode::kBands) {
+  Diagnostics diagnostics([](Severity severity, std::string_view line) {
+    if (severity != Severity::kNote) ADD_FAILURE() << line;
+  });
+  return compile_description(parse_scene(text, "test.lxs", folder(), diagnostics), kernels,
+                             diagnostics, 0, 0, colour);
+}
+
+std::string uv_quad_text(const std::string& a, const std::string& b, const std::string& c,
+                         const std::string& d, const std::string& uv = "0 0 1 0 1 1 0 1") {
+  return "Shape \"mesh\" \"integer triindices\" [0 1 2 0 2 3] \"point P\" [" + a + " " + b + " " +
+         c + " " + d + "] \"float uv\" [" + uv + "]\n";
+}
+
+/// Every mapping, image filter and pattern on the surfaces of a room.
+std::string room_of_textures() {
+  write_image("texture_renders", "colour.png", 21, 13, 3, OIIO::TypeDesc::UINT8,
+              [](int x, int y, int c) { return float((x * 37 + y * 91 + c * 53) % 200) / 255; });
+  write_image("texture_renders", "grey.png", 16, 16, 1, OIIO::TypeDesc::UINT8,
+              [](int x, int y, int) { return float((x * 7 + y * 29) % 256) / 255; });
+  const auto image = [](const std::string& name, const std::string& kind, const std::string& more) {
+    return "Texture \"" + name + "\" \"" + kind + "\" \"imagemap\" " + more + "\n";
+  };
+  std::string text = view_text("0 -2.7 0.1", "0 0 0", 48, 32, 24);
+  text += image("smooth", "color",
+                "\"string filename\" [\"colour.png\"] \"float gamma\" [2.2] \"float vscale\" [-1] "
+                "\"float uscale\" [2]");
+  text += image("mips", "color",
+                "\"string filename\" [\"colour.png\"] \"float gamma\" [2.2] \"string filtertype\" "
+                "[\"mipmap_trilinear\"] \"float uscale\" [9] \"float vscale\" [7] \"string wrap\" "
+                "[\"clamp\"]");
+  text += image("planar", "color",
+                "\"string filename\" [\"colour.png\"] \"float gain\" [.9] \"string mapping\" "
+                "[\"planar\"] \"vector v1\" [.5 .1 0] \"vector v2\" [0 .7 .3] \"string wrap\" "
+                "[\"black\"]");
+  text += image("round", "color",
+                "\"string filename\" [\"colour.png\"] \"float gamma\" [1.8] \"string mapping\" "
+                "[\"spherical\"] \"float uscale\" [3]");
+  text += image("number", "float", "\"string filename\" [\"grey.png\"] \"float gain\" [40]");
+  text += "Texture \"wavy\" \"float\" \"fbm\" \"vector scale\" [.3 .3 .3]\n";
+  text +=
+      "Texture \"half\" \"color\" \"mix\" \"texture tex1\" [\"smooth\"] \"color tex2\" "
+      "[.2 .5 .7] \"texture amount\" [\"wrinkles\"]\n";
+  // Named before it is defined: no such texture. So first:
+  text.insert(text.find("Texture \"half\""),
+              "Texture \"wrinkles\" \"float\" \"wrinkled\" \"integer octaves\" [3]\n");
+  text += "Texture \"stone\" \"color\" \"marble\" \"float scale\" [3]\n";
+  text += matte_text(".6 .6 .6") + uv_quad_text("-1 -1 -1", "1 -1 -1", "1 1 -1", "-1 1 -1") +
+          "Material \"matte\" \"texture Kd\" [\"smooth\"]\n" +
+          uv_quad_text("-1 1 -1", "1 1 -1", "1 1 1", "-1 1 1") +
+          "Material \"matte\" \"texture Kd\" [\"mips\"] \"texture sigma\" [\"number\"]\n" +
+          uv_quad_text("-1 -1 -1", "-1 1 -1", "-1 1 1", "-1 -1 1") +
+          "Material \"matte\" \"texture Kd\" [\"planar\"]\n" +
+          uv_quad_text("1 -1 -1", "1 -1 1", "1 1 1", "1 1 -1") +
+          "Material \"matte\" \"texture Kd\" [\"half\"]\n" +
+          uv_quad_text("-1 -1 1", "-1 1 1", "1 1 1", "1 -1 1") +
+          "Material \"matte\" \"texture Kd\" [\"stone\"] \"texture bumpmap\" [\"wavy\"]\n" +
+          sphere_text("-.4 .3 -.6", .35) + "Material \"mirror\" \"texture Kr\" [\"round\"]\n" +
+          sphere_text(".45 .2 -.55", .4);
+  text += "AttributeBegin\n" + light_text("7 6 5") + matte_text("0 0 0") +
+          quad_text("-.3 -.3 .95", "-.3 .3 .95", ".3 .3 .95", ".3 -.3 .95") + "AttributeEnd\n";
+  return text + "WorldEnd\n";
+}
+
+TEST_P(TextureRenders, PathsAgreeWithTheOracle) {
+  const Scene scene = compile_in_folder(room_of_textures(), kernels());
+  EXPECT_GE(scene.programs.size(), 6u);
+  PlanOptions options;
+  options.max_depth = 5;
+  options.seed = 3;
+  // Slopes of noise over .001 are differences of floats: the bumpy sphere's paths agree less.
+  EXPECT_GT(agreement(scene, make_plan(scene, kernels(), options), 4, 5e-3), .85);
+}
+
+TEST_P(TextureRenders, PicturesAgreeWithTheOracle) {
+  const Scene scene = compile_in_folder(room_of_textures(), kernels());
+  expect_same_picture(scene, kernels(), 4, 48, 8);
+}
+
+/// A wall lit by one distant light head-on, seen by pixels that are texels: radiance is texel / pi.
+TEST_P(TextureRenders, TexelsAreWhereTheyBelong) {
+  const int n = 8;
+  write_image("texture_renders", "places.png", n, n, 3, OIIO::TypeDesc::UINT8,
+              [](int x, int y, int c) {
+                return float(c == 0 ? x * 30 : c == 1 ? y * 30 : 128) / 255;
+              });
+  // A pinhole with a field of view of 90 degrees at distance 1 from a wall of [-1, 1]^2.
+  std::string text =
+      "LookAt 0 0 1  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" [90]\nPixelFilter \"box\" "
+      "\"float xwidth\" [.01] \"float ywidth\" [.01]\nFilm \"fleximage\" \"integer xresolution\" "
+      "[8] \"integer yresolution\" [8]\nWorldBegin\n";
+  text +=
+      "Texture \"t\" \"color\" \"imagemap\" \"string filename\" [\"places.png\"] \"float "
+      "vscale\" [-1]\nMaterial \"matte\" \"texture Kd\" [\"t\"]\n";
+  text += uv_quad_text("-1 -1 0", "1 -1 0", "1 1 0", "-1 1 0");
+  text +=
+      "LightSource \"distant\" \"point from\" [0 0 1] \"point to\" [0 0 0] \"color L\" [1 1 1]\n";
+  const Scene scene = compile_in_folder(text + "WorldEnd\n", kernels(), ColourMode::kRgb);
+  PlanOptions options;
+  options.max_depth = 1;
+  const Plan plan = make_plan(scene, kernels(), options);
+  const std::vector<float> rgb = render_film(scene, plan, 0, 1).resolve();
+  const float unit = rgb[2] / (128.f / 255);  // radiance of white, the same in every pixel
+  EXPECT_GT(unit, 0);
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      // v upwards and vscale -1: the picture stands upright. A place within a pixel, by the filter,
+      // is off by up to .01, which at the rim mixes the other side in.
+      const float* p = &rgb[3 * size_t(y * n + x)];
+      const float across = p[0] / unit * 255 / 30;
+      EXPECT_NEAR(p[1] / unit * 255 / 30, y, .08) << x << " " << y;
+      EXPECT_NEAR(across, x, .08) << x << " " << y;
+      EXPECT_NEAR(p[2] / unit, 128.f / 255, 1e-4) << x << " " << y;
+    }
+}
+
+/// A ramp of heights is a tilted wall: h = .5 x over a flat wall, seen by a distant light.
+TEST_P(TextureRenders, BumpedSlopeIsATiltedWall) {
+  const auto scene_of = [&](const std::string& material) {
+    std::string text =
+        "LookAt 0 0 5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" [10]\nPixelFilter "
+        "\"box\"\nFilm \"fleximage\" \"integer xresolution\" [4] \"integer yresolution\" "
+        "[4]\nWorldBegin\n";
+    // h = frac(u) with u from 0 to 1 over 2 m times 1: slope 1/2 along x.
+    text +=
+        "Texture \"uv\" \"color\" \"uv\"\nTexture \"ramp\" \"float\" \"bilerp\" \"float v00\" "
+        "[0] \"float v01\" [0] \"float v10\" [1] \"float v11\" [1]\n";
+    text += material + uv_quad_text("-1 -1 0", "1 -1 0", "1 1 0", "-1 1 0");
+    text +=
+        "LightSource \"distant\" \"point from\" [.3 0 1] \"point to\" [0 0 0] \"color L\" "
+        "[1 1 1]\n";
+    return compile_in_folder(text + "WorldEnd\n", kernels());
+  };
+  PlanOptions options;
+  options.max_depth = 1;
+  const auto mean = [&](const Scene& scene) {
+    double sum = 0;
+    for (const float v : render_film(scene, make_plan(scene, kernels(), options), 0, 4).resolve())
+      sum += double(v);
+    return sum;
+  };
+  const Scene flat = scene_of("Material \"matte\" \"color Kd\" [.5 .5 .5]\n");
+  const Scene bent =
+      scene_of("Material \"matte\" \"color Kd\" [.5 .5 .5] \"texture bumpmap\" [\"ramp\"]\n");
+  ASSERT_EQ(bent.programs.size(), 1u);
+  // Normals (0, 0, 1) and (-1/2, 0, 1) / sqrt(5/4), light from (.3, 0, 1) / |.|.
+  EXPECT_NEAR(mean(bent) / mean(flat), (1 - .15) / std::sqrt(1.25), 2e-3);
+}
+
+TEST_P(TextureRenders, SameBitsForAnyBatchAndTile) {
+  const Scene scene = compile_in_folder(room_of_textures(), kernels());
+  PlanOptions options;
+  options.max_depth = 4;
+  const Plan plan = make_plan(scene, kernels(), options);
+  const Film a = render_film(scene, plan, 0, 3), b = render_film(scene, plan, 0, 3, 2, 512, 8);
+  EXPECT_TRUE(same_bits(a, b));
+}
+
+}  // namespace
+}  // namespace yat
