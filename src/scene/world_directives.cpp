@@ -139,7 +139,7 @@ void SceneBuilder::resolve_materials(std::string_view type, std::vector<Paramete
         !is_one_of(parameter.name, kNames, by_yart()))
       continue;
     const std::string& name = parameter.strings[0];
-    const ScopedNames::Entry* found = state_.materials.find(name);
+    const ScopedNames::Entry* found = look_up(state_.materials, name);
     parameter.material = found ? found->row : kNoRow;
     if (!found)
       diagnostics_.error(parameter.loc, fmt::format("no material {}{}, for {}", quote(name),

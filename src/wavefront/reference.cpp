@@ -52,7 +52,7 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
     }
     const Vec wo = -ray.direction;
     const bool met_outside = glm::dot(hit->ng, wo) > 0;
-    const float child = random_pair(plan.sampler, options.seed, Dimension::kChild, pixel, sample,
+    const float child = random_pair(plan.sampler, plan.draw_key(), Dimension::kChild, pixel, sample,
                                     crossed << 16 | vertex)
                             .first;
     const double width = footprint(scene, glm::length(hit->position - scattered_at), scattered_pdf,
