@@ -116,6 +116,7 @@ void add_lights(const KernelTable& table) {
 
 void add_shade(const KernelTable& table) {
   for (uint32_t kind = 0; kind < kMaterialKinds; ++kind) {
+    if (material_traits(MaterialKind(kind)).splits) continue;  // their children are shaded
     const std::string name = std::string("shade/") + kMaterialNames[kind];
     const auto kernel = table.shade[kind];
     if (!kernel) {
@@ -217,6 +218,7 @@ void add_shading_benchmarks(const KernelTable& table) {
 void add_bsdf_benchmarks(const KernelTable& table) {
   for (const bool sample : {false, true})
     for (uint32_t kind = 0; kind < kMaterialKinds; ++kind) {
+      if (material_traits(MaterialKind(kind)).splits) continue;
       const std::string name =
           std::string(sample ? "bsdf_sample/" : "bsdf_evaluate/") + kMaterialNames[kind];
       const auto kernel = sample ? table.bsdf_sample[kind] : table.bsdf_evaluate[kind];

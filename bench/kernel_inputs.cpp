@@ -83,12 +83,20 @@ Shape "trianglemesh" "integer indices" [0 2 1 0 3 2  4 5 6 4 6 7]
       "\"mirror\" \"float film\" [300]",
       "\"glass\" \"float film\" [300]",
       "\"glass\" \"bool architectural\" [\"true\"]",
+      "\"mattetranslucent\" \"color Kr\" [.5 .4 .3] \"color Kt\" [.3 .4 .5] \"float sigma\" [10]",
+      "\"velvet\"",
+      "\"scatter\" \"color g\" [.3 .3 .3]",
+      "\"glossy\" \"color Ks\" [.1 .1 .1]",
+      "\"glossy\" \"color Ks\" [.1 .1 .1] \"bool separable\" [\"false\"]",
+      "\"glossy_lossy\" \"color Ks\" [.1 .1 .1]",
+      "\"glossytranslucent\" \"color Ks\" [.1 .1 .1]",
+      "\"carpaint\"",
   };
   for (size_t i = 0; i < std::size(kMore); ++i)
     text += fmt::format(
-        "AttributeBegin\nMaterial {}\nTranslate {} 0.1 -0.15\n"
+        "AttributeBegin\nMaterial {}\nTranslate {} 0.1 {}\n"
         "Shape \"sphere\" \"float radius\" [0.1]\nAttributeEnd\n",
-        kMore[i], -0.84 + 0.24 * double(i));
+        kMore[i], -0.84 + 0.24 * double(i % 8), -0.15 + 0.3 * double(i / 8));
   // Small triangles, so that the tree has depth: a grid of tents on the floor.
   std::string points, indices;
   constexpr int kTents = 40;

@@ -1,6 +1,8 @@
 #pragma once
 // Scenes lit from all around, and the pictures that they need.
 
+#include <unistd.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -16,11 +18,14 @@ inline std::string write_ppm(const std::string& name, uint32_t width, uint32_t h
   const std::filesystem::path folder(YAT_TEST_OUTPUT_DIR);
   std::filesystem::create_directories(folder);
   const std::string path = (folder / name).string();
-  std::FILE* file = std::fopen(path.c_str(), "wb");
+  // Tests run side by side: whoever reads sees a whole file.
+  const std::string own = path + "." + std::to_string(::getpid());
+  std::FILE* file = std::fopen(own.c_str(), "wb");
   if (!file) return {};
   std::fprintf(file, "P6\n%u %u\n255\n", width, height);
   std::fwrite(texels.data(), 1, texels.size(), file);
   std::fclose(file);
+  std::filesystem::rename(own, path);
   return path;
 }
 

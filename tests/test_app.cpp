@@ -101,7 +101,7 @@ TEST(Options, MistakesNameTheOptionAndTheWayOut) {
   EXPECT_EQ(
       usage_error({"render", "a.lxs", "--tonemap", "reinhart"}),
       "--tonemap reinhart: unknown (did you mean \"reinhard\"?); choose from linear, reinhard, "
-      "autolinear, maxwhite, contrast, outofgamut, yart-linear, yart-reinhard");
+      "autolinear, maxwhite, contrast, falsecolors, outofgamut, yart-linear, yart-reinhard");
   EXPECT_EQ(usage_error({"render", "a.lxs", "--time", "0"}),
             "--time 0: no time to render; give seconds above 0");
   EXPECT_EQ(usage_error({"render", "a.lxs", "--samples-range", "4,4"}),

@@ -23,7 +23,8 @@ std::string text_of(const std::string& camera, uint32_t width, uint32_t height,
   return "LookAt 1 2 3 1 5 3 0 0 1\nCamera " + camera + "\nPixelFilter \"box\"\n" +
          "Film \"fleximage\" \"integer xresolution\" [" + std::to_string(width) +
          "] \"integer yresolution\" [" + std::to_string(height) +
-         "]\nWorldBegin\nShape \"plane\"\nLightSource \"point\"\n" + world + "WorldEnd\n";
+         "]\nWorldBegin\nShape \"plane\"\nLightSource \"point\" \"point from\" [1 2 6]\n" + world +
+         "WorldEnd\n";
 }
 
 class Cameras : public PerIsa {

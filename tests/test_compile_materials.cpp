@@ -156,14 +156,80 @@ TEST_F(CompileMaterials, DiffuseWithSomethingToSay) {
   EXPECT_EQ(messages.size(), 4u) << all_said();
 }
 
-TEST_F(CompileMaterials, Unsupported) {
-  Scene scene = with(plugin("glossycoating", {}));
-  EXPECT_EQ(row_of<MatteParameters>(scene, MaterialKind::kMatte).kd_r, .5f);
+TEST_F(CompileMaterials, Coated) {
+  const auto glossy = row_of<GlossyParameters>(
+      with(plugin("glossy", {color("Kd", .5f, .25f, 0), number("index", 1.5f), number("d", .1f),
+                             color("Ka", 0, .5f, 1), number("uroughness", .2f),
+                             number("vroughness", .2f), number("sigma", 20)})),
+      MaterialKind::kGlossy);
+  EXPECT_EQ(glossy.kd_g, .25f);
+  EXPECT_EQ(glossy.ks_r, 1);
+  EXPECT_EQ(glossy.ka_b, 1);
+  EXPECT_EQ(glossy.depth, .1f);
+  EXPECT_EQ(glossy.index, 1.5f);
+  EXPECT_EQ(glossy.uroughness, .2f);
+  EXPECT_EQ(glossy.sigma, 20);
+  EXPECT_EQ(glossy.multibounce, 0);
+  EXPECT_FALSE(with(plugin("glossy", {})).bins[1].tangents);
+  for (const char* name : {"glossy", "plastic", "glossytranslucent"})
+    EXPECT_TRUE(with(plugin(name, {number("uroughness", .2f)})).bins[1].tangents) << name;
+  const Parameter single = text("separable", "false", ParameterType::kBool);
+  const auto joint =
+      row_of<GlossySingleParameters>(with(plugin("glossy", {single})), MaterialKind::kGlossySingle);
+  EXPECT_FLOAT_EQ(joint.uroughness, .1f);
+  const Scene black = with(plugin("glossy", {single, color("Ks", 0, 0, 0)}));
+  EXPECT_EQ(row_of<MatteParameters>(black, MaterialKind::kMatte).kd_r, 1);
+  for (const char* name : {"glossy_lossy", "substrate", "plastic"})
+    EXPECT_EQ(row_of<GlossyLossyParameters>(with(plugin(name, {color("Ks", .5f, .5f, .5f)})),
+                                            MaterialKind::kGlossyLossy)
+                  .ks_g,
+              .5f);
+  const auto sheet = row_of<GlossyTranslucentParameters>(
+      with(plugin("glossytranslucent", {color("Kt", .5f, 0, 1)})),
+      MaterialKind::kGlossyTranslucent);
+  EXPECT_EQ(sheet.kt_r, .5f);
+  EXPECT_EQ(sheet.back_ks_r, 1);
+  EXPECT_FLOAT_EQ(sheet.back_uroughness, .1f);
+  const auto two = row_of<GlossyTranslucentParameters>(
+      with(plugin("glossytranslucent",
+                  {text("onesided", "false", ParameterType::kBool), number("backface_index", 2)})),
+      MaterialKind::kGlossyTranslucent);
+  EXPECT_EQ(two.back_ks_r, 0);
+  EXPECT_EQ(two.back_index, 2);
+  EXPECT_EQ(two.index, 0);
+  const auto paint = row_of<CarPaintParameters>(with(plugin("carpaint", {text("name", "bmw339")})),
+                                                MaterialKind::kCarPaint);
+  EXPECT_FLOAT_EQ(paint.kd_g, .015f);
+  EXPECT_FLOAT_EQ(paint.ks3_b, .016f);
+  EXPECT_FLOAT_EQ(paint.r2, .87f);
+  EXPECT_FLOAT_EQ(paint.m1, .39f);
+  const auto own = row_of<CarPaintParameters>(
+      with(plugin("carpaint", {color("Ks2", .5f, .5f, .5f), number("M2", .25f)})),
+      MaterialKind::kCarPaint);
+  EXPECT_EQ(own.ks2_r, .5f);
+  EXPECT_EQ(own.m2, .25f);
+  EXPECT_FLOAT_EQ(own.ks1_r, .0049f);
+  EXPECT_SILENT();
+}
+
+TEST_F(CompileMaterials, CoatedWithSomethingToSay) {
+  with(plugin("carpaint", {text("name", "bmw 339")}));
   EXPECT_SAID(
-      "scene.lxs:10:1: warning: material \"glossycoating\" is not yet supported: rendered as matte "
-      "with "
-      "Kd 0.5 0.5 0.5");
-  scene = with(plugin("mate", {}));
+      "scene.lxs:11:2: warning: no car paint \"bmw 339\" (did you mean \"bmw339\"?): \"ford f8\" "
+      "is "
+      "used");
+  const uint32_t base = material(plugin("mirror", {}));
+  Parameter named = text("basematerial", "base");
+  named.material = base;
+  const Scene scene = with(plugin("glossycoating", {named, number("index", 1.5f)}));
+  EXPECT_EQ(scene.bins[1].material, MaterialKind::kMirror);
+  EXPECT_SAID(
+      "scene.lxs:10:1: warning: material \"glossycoating\" shows its base \"base\" without the "
+      "coat");
+}
+
+TEST_F(CompileMaterials, Unknown) {
+  with(plugin("mate", {}));
   EXPECT_SAID(
       "scene.lxs:10:1: error: unknown material \"mate\" (did you mean \"matte\"?): matte with Kd "
       "0.9 is used");

@@ -70,6 +70,8 @@ LightRow<Value> far_light(LightKind kind, const glm::dvec3& a, double cos = 1) {
   row.radiance_r = 1, row.radiance_g = .5f, row.radiance_b = 2;
   row.probability = 1;
   row.kind = uint32_t(kind);
+  // LuxRender's fall-off: 1 / distance^2.
+  if (kind == LightKind::kPoint) row.b_x = 1;
   return row;
 }
 

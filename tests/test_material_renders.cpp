@@ -78,6 +78,24 @@ TEST_P(MaterialRenders, DiffusePathsAgree) {
        "Material \"matte\" \"color Kd\" [.8 .7 .2] \"float sigma\" [50]"});
 }
 
+TEST_P(MaterialRenders, CoatedPathsAgree) {
+  const std::string rough = " \"float uroughness\" [.3] \"float vroughness\" [.3]";
+  const std::string absorbs = " \"color Ka\" [.2 .5 .8] \"float d\" [.4]";
+  expect_paths_agree(
+      {"Material \"glossy\" \"color Kd\" [.6 .3 .2] \"color Ks\" [.1 .1 .1]" + rough,
+       "Material \"glossy\" \"color Kd\" [.6 .3 .2] \"float index\" [1.5] \"float "
+       "sigma\" [20] \"bool multibounce\" [\"true\"]" +
+           rough + absorbs,
+       "Material \"glossy\" \"color Kd\" [.2 .6 .3] \"color Ks\" [.2 .1 .1] \"bool "
+       "separable\" [\"false\"]" +
+           rough + absorbs,
+       "Material \"substrate\" \"color Kd\" [.5 .6 .3] \"color Ks\" [.2 .1 .1]" + rough,
+       "Material \"glossytranslucent\" \"color Kd\" [.3 .4 .3] \"color Kt\" [.6 .5 .4] "
+       "\"color Ks\" [.1 .1 .1]" +
+           rough + absorbs,
+       "Material \"carpaint\" \"string name\" [\"polaris silber\"]"});
+}
+
 TEST_P(MaterialRenders, ASheetInAFurnaceShowsBothSides) {
   const std::string sheet = quad_text("-2 0 -2", "2 0 -2", "2 0 2", "-2 0 2");
   const std::string colours =

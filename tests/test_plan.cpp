@@ -34,7 +34,7 @@ TEST(Plan, SkipsWhatTheSceneDoesNotHold) {
        {"intersect_tiles (camera), intersect_closest: 12 triangles", "sample_lights (point)",
         "shade matte", "intersect_planes: no plane in the scene",
         "intersect_spheres: no sphere in the scene", "add_emission: no surface emits light",
-        "draw lens: the camera is a pinhole", "shade glass: no surface of this material",
+        "draw lens: the camera has no lens", "shade glass: no surface of this material",
         "draw choice: there is one light"})
     EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
 }

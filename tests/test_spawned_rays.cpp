@@ -75,8 +75,8 @@ struct Bounce {
   void shade(MaterialKind material, bool with_lights) {
     LightSample<ConstColumn> light_columns{};
     if (with_lights) {
-      kernels.sample_lights[kPlainLights](view, surfaces.view(), randoms.view(),
-                                                         lights.columns(), n);
+      kernels.sample_lights[kPlainLights](view, surfaces.view(), randoms.view(), lights.columns(),
+                                          n);
       light_columns = lights.view();
     }
     kernels.shade[uint32_t(material)]({surfaces.view(), chunk_paths.view(), randoms.view(),

@@ -25,8 +25,9 @@ MaterialRef build_mix(MaterialCompiler& compiler, Parameters& p) {
   const auto second = compiler.child(p, "namedmaterial2");
   if (!first || !second) return not_built(compiler, p);
   const double amount = compiler.clamped(p, "amount", .5, 0, 1);
-  if (amount == 0) return *first;
-  if (amount == 1) return *second;
+  const bool varies = compiler.varies("amount");
+  if (!varies && amount == 0) return *first;
+  if (!varies && amount == 1) return *second;
   if (first->passing == Passing::kAll && second->passing == Passing::kAll) return *first;
   return compiler.add_split<MixParameters>(
       MaterialKind::kMix, {float(amount), first->row, second->row}, *first, *second, false, false);

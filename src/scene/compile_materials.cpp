@@ -109,19 +109,6 @@ double MaterialCompiler::clamped(Parameters& p, std::string_view name, double fa
   return clamped;
 }
 
-MaterialRef MaterialCompiler::stand_in(Parameters& p, std::string_view color, double fallback) {
-  const std::string& type = p.plugin().type;
-  const glm::dvec3 kd = color.empty() ? glm::dvec3(fallback) : reflectance(p, color, fallback);
-  diagnostics_.warning(
-      p.plugin().loc,
-      fmt::format("material \"{}\" is not yet supported: rendered as matte with Kd {:.3g} {:.3g} "
-                  "{:.3g}",
-                  type, kd.x, kd.y, kd.z),
-      fmt::format("material \"{}\" is not yet supported", type));
-  p.accept_all();
-  return add_matte(*this, kd, 0);
-}
-
 bool MaterialCompiler::varies(std::string_view name) {
   const auto& varying = textures_.varying();
   return std::any_of(varying.begin(), varying.end(),

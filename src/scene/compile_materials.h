@@ -75,9 +75,6 @@ class MaterialCompiler {
   /// A float parameter, clamped to [least, most] with one warning. Not a number: least.
   double clamped(Parameters& parameters, std::string_view name, double fallback, double least,
                  double most);
-  /// Matte instead of a type that has no kernel, in the colour of parameter `color` (empty: in
-  /// grey `fallback`), with a warning.
-  MaterialRef stand_in(Parameters& parameters, std::string_view color, double fallback);
   /// The material that a string parameter names. Empty, and an error, if there is none.
   std::optional<MaterialRef> child(Parameters& parameters, std::string_view name);
   /// A material of `kind`, made of two others; `turned`: see MaterialSplit.

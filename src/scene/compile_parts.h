@@ -18,11 +18,6 @@
 
 namespace yat {
 
-/// Luminance of linear Rec.709, scaled so that (1,1,1) has 1 (lxs section 9).
-inline double luminance(const glm::dvec3& c) {
-  return .21264 * c.x + .71517 * c.y + .07219 * c.z;
-}
-
 /// CIE XYZ -> linear Rec.709 (lxs section 9).
 inline glm::dvec3 xyz_to_rec709(const glm::dvec3& c) {
   return {3.24097 * c.x - 1.53738 * c.y - .49861 * c.z,

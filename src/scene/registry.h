@@ -28,6 +28,11 @@
   YAT_MATERIAL(matte_translucent, MatteTranslucent) \
   YAT_MATERIAL(velvet,            Velvet)           \
   YAT_MATERIAL(scatter,           Scatter)          \
+  YAT_MATERIAL(glossy,            Glossy)           \
+  YAT_MATERIAL(glossy_single,     GlossySingle)     \
+  YAT_MATERIAL(glossy_lossy,      GlossyLossy)      \
+  YAT_MATERIAL(glossy_translucent, GlossyTranslucent) \
+  YAT_MATERIAL(car_paint,         CarPaint)         \
   YAT_MATERIAL(metal,             Metal)            \
   YAT_MATERIAL(metal_index,       MetalIndex)       \
   YAT_MATERIAL(metal_colour,      MetalColour)      \

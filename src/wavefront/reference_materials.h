@@ -29,6 +29,13 @@ double largest(const Vec& c);
 double oren_nayar(double sigma, const Vec& wo, const Vec& wi);
 Vec mirrored(const Vec& wo);
 
+/// The microfacet lobe of lxs 7.1, for whom it is a part (reference_microfacet.cpp): without R F.
+double lobe_value(double u, double v, const Vec& wo, const Vec& wi);
+double lobe_distribution(double u, double v, const Vec& h);
+double lobe_shadowing(double u, double v, double cos);
+double lobe_pdf(double u, double v, const Vec& wo, const Vec& wi);
+Vec lobe_direction(double u, double v, const Vec& wo, double x, double y);
+
 // reference_materials.cpp
 Bounce sample(const MirrorParameters<Value>&, const LocalView&, double, double, double);
 Bounce sample(const GlassParameters<Value>&, const LocalView&, double lobe, double, double);
@@ -51,6 +58,12 @@ YAT_REFERENCE(OrenNayar)
 YAT_REFERENCE(MatteTranslucent)
 YAT_REFERENCE(Velvet)
 YAT_REFERENCE(Scatter)
+// reference_coated.cpp
+YAT_REFERENCE(Glossy)
+YAT_REFERENCE(GlossySingle)
+YAT_REFERENCE(GlossyLossy)
+YAT_REFERENCE(GlossyTranslucent)
+YAT_REFERENCE(CarPaint)
 // reference_microfacet.cpp
 YAT_REFERENCE(Metal)
 YAT_REFERENCE(MetalIndex)

@@ -437,4 +437,22 @@ Bounce sample(const CookTorranceParameters<Value>& p, const LocalView& view, dou
   return {wi, evaluate(p, view, wi) * (wi.z / density), density};
 }
 
+// ---- For materials of which it is a part
+
+double lobe_value(double u, double v, const Vec& wo, const Vec& wi) {
+  return Lobe(float(u), float(v)).value(wo, wi, glm::normalize(wo + wi));
+}
+double lobe_distribution(double u, double v, const Vec& h) {
+  return Lobe(float(u), float(v)).distribution(h);
+}
+double lobe_shadowing(double u, double v, double cos) {
+  return Lobe(float(u), float(v)).shadowing(cos);
+}
+double lobe_pdf(double u, double v, const Vec& wo, const Vec& wi) {
+  return Lobe(float(u), float(v)).pdf(wo, glm::normalize(wo + wi));
+}
+Vec lobe_direction(double u, double v, const Vec& wo, double x, double y) {
+  return reflected(wo, Lobe(float(u), float(v)).reflecting_normal(wo, x, y));
+}
+
 }  // namespace yat::reference

@@ -176,8 +176,15 @@ void Worker::draw(Dimension dimension, const PathState<ConstColumn>& paths, floa
 
 void Worker::shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end) {
   const uint32_t n = end - begin;
-  ChunkRows rows{
-      batch_.surfaces.view(), batch_.chunk_paths.view(), {}, batch_.chunk_paths.columns().slot, n};
+  ChunkRows rows{.surfaces = batch_.surfaces.view(),
+                 .bendable = batch_.surfaces.columns(),
+                 .paths = batch_.chunk_paths.view(),
+                 .tangents = {},
+                 .slots = batch_.chunk_paths.columns().slot,
+                 .geometry = bin.bin.geometry,
+                 .order = batch_.order.data() + begin,
+                 .instance = bin.bin.instanced ? batch_.instance.data() : nullptr,
+                 .n = n};
 
   clock_.enter(Stage::kSurface, n);
   if (bin.bin.instanced)

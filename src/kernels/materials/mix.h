@@ -14,12 +14,15 @@ struct MixParameters {
 };
 static_assert(all_fields_listed<MixParameters>);
 
+inline constexpr TexturedField kMixTextured[] = {
+    textured_number<MixParameters>("amount", "amount", 0, 1)};
 inline constexpr MaterialTraits kMixTraits{.name = "mix",
                                            .delta = false,
                                            .see_through = false,
                                            .needs_lobe = false,
                                            .needs_direction = false,
-                                           .splits = true};
+                                           .splits = true,
+                                           .textured = kMixTextured};
 
 #if defined(YAT_ISA)
 namespace YAT_ISA {

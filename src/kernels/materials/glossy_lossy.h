@@ -1,0 +1,106 @@
+#pragma once
+// LuxRender's glossy_lossy, substrate and plastic (lxs 7.3; Ashikhmin, Shirley, "An Anisotropic
+// Phong BRDF Model", 2000), on both sides: with R0 and the absorption a of coated_diffuse.h,
+//   f = 28/(23 pi) Kd (1 - R0) (1 - (1 - cos_i/2)^5) (1 - (1 - cos_o/2)^5) a
+//       + D(h) Schlick(R0, i.h) / (4 (i.h) max(cos_i, cos_o)).
+
+#include "kernels/materials/coated_diffuse.h"
+#include "soa/fields.h"
+
+namespace yat {
+
+template <template <class> class Of>
+struct GlossyLossyParameters {
+  Of<float> kd_r, kd_g, kd_b;        ///< reflectance of the base, 0..1
+  Of<float> ks_r, ks_g, ks_b;        ///< of the coat, head-on, 0..1
+  Of<float> ka_r, ka_g, ka_b;        ///< absorption of the coat [1/m], >= 0
+  Of<float> depth;                   ///< thickness of the coat [m], >= 0
+  Of<float> index;                   ///< refractive index that Ks counts times; 0: in full
+  Of<float> uroughness, vroughness;  ///< 0..1
+  YAT_FIELDS(kd_r, kd_g, kd_b, ks_r, ks_g, ks_b, ka_r, ka_g, ka_b, depth, index, uroughness,
+             vroughness)
+};
+static_assert(all_fields_listed<GlossyLossyParameters>);
+
+inline constexpr TexturedField kGlossyLossyTextured[] = {
+    textured_colour<GlossyLossyParameters>("Kd", "kd_r"),
+    textured_colour<GlossyLossyParameters>("Ks", "ks_r"),
+    textured_colour<GlossyLossyParameters>("Ka", "ka_r"),
+    textured_number<GlossyLossyParameters>("d", "depth", 0, 1e6f),
+    textured_number<GlossyLossyParameters>("index", "index", 0, 100),
+    textured_number<GlossyLossyParameters>("uroughness", "uroughness", 1e-6f, 1),
+    textured_number<GlossyLossyParameters>("vroughness", "vroughness", 1e-6f, 1)};
+inline constexpr MaterialTraits kGlossyLossyTraits{.name = "glossy_lossy",
+                                                   .delta = false,
+                                                   .see_through = false,
+                                                   .needs_lobe = true,
+                                                   .needs_direction = true,
+                                                   .textured = kGlossyLossyTextured};
+
+#if defined(YAT_ISA)
+namespace YAT_ISA {
+
+template <class A>
+struct GlossyLossy {
+  using Parameters = GlossyLossyParameters<Lanes<A>::template Of>;
+
+  /// What does not depend on wi.
+  struct Parts {
+    MicrofacetLobe<A> lobe;
+    Spectrum<A> r0, base, ka;
+    Float<A> chance;  ///< of the coat
+    static YAT_INLINE Parts of(const Parameters& p, const BsdfView<A>& view) {
+      const Float<A> one(1.f), cos = view.wo.z;
+      Parts s{MicrofacetLobe<A>::of(p.uroughness, p.vroughness),
+              coat_reflectance<A>({p.ks_r, p.ks_g, p.ks_b}, p.index),
+              {p.kd_r, p.kd_g, p.kd_b},
+              {p.ka_r, p.ka_g, p.ka_b},
+              one};
+      s.base = (Float<A>(28.f / 23) * rim(cos)) * (one_minus<A>(s.r0) * s.base);
+      s.chance = coat_chance<A>(coat_fresnel<A>(s.r0, cos),
+                                coat_absorption<A>(s.ka, p.depth, one + one / cos) * s.base);
+      return s;
+    }
+  };
+  /// 1 - (1 - cos/2)^5.
+  static YAT_INLINE Float<A> rim(const Float<A>& cos) {
+    return Float<A>(1.f) - fifth_power<A>(Float<A>(1.f) - Float<A>(.5f) * cos);
+  }
+
+  static YAT_INLINE Scattered<A> both(const Parameters& p, const BsdfView<A>& view,
+                                      const Parts& parts, const Vec3<A>& wi) {
+    const Float<A> one(1.f), zero(0.f);
+    const Vec3<A>& wo = view.wo;
+    const Vec3<A> h = MicrofacetLobe<A>::half_vector(wo, wi);
+    const Float<A> cos_h = dot(wi, h);
+    const Float<A> coat = only<A>(!parts.lobe.smooth, Float<A>(.25f) * parts.lobe.distribution(h) /
+                                                          (cos_h * xsimd::max(wi.z, wo.z)));
+    const Spectrum<A> base = coat_absorption<A>(parts.ka, p.depth, one / wo.z + one / wi.z) *
+                             ((Float<A>(kInvPi) * rim(wi.z)) * parts.base);
+    const Mask<A> above = wi.z > zero;
+    return {only<A>(above, sum<A>(coat * coat_fresnel<A>(parts.r0, cos_h), base)),
+            only<A>(above, parts.chance * parts.lobe.pdf(wo, h) +
+                               (one - parts.chance) * cosine_hemisphere_pdf<A>(wi.z))};
+  }
+
+  static YAT_INLINE Spectrum<A> evaluate(const Parameters& p, const BsdfView<A>& view,
+                                         const Vec3<A>& wi) {
+    return both(p, view, Parts::of(p, view), wi).f;
+  }
+  static YAT_INLINE Float<A> pdf(const Parameters& p, const BsdfView<A>& view, const Vec3<A>& wi) {
+    return both(p, view, Parts::of(p, view), wi).pdf;
+  }
+  static YAT_INLINE BsdfSample<A> sample(const Parameters& p, const BsdfView<A>& view,
+                                         const Float<A>& u_lobe, const Float<A>& u,
+                                         const Float<A>& v) {
+    const Parts parts = Parts::of(p, view);
+    return sample_coated<A>(parts.lobe, parts.chance, coat_fresnel<A>(parts.r0, view.wo.z), view.wo,
+                            u_lobe, u, v,
+                            [&](const Vec3<A>& wi) { return both(p, view, parts, wi); });
+  }
+};
+
+}  // namespace YAT_ISA
+#endif
+
+}  // namespace yat
