@@ -16,7 +16,8 @@ constexpr std::array<const char*, kMaterialKinds> kMaterialNames = {
     YAT_MATERIALS(YAT_MATERIAL)
 #undef YAT_MATERIAL
 };
-constexpr const char* kGeometryNames[] = {"triangle_flat", "triangle_vertex", "sphere", "plane"};
+constexpr const char* kGeometryNames[] = {
+    "triangle_flat", "triangle_vertex", "sphere", "plane", "quadric", "disk", "torus"};
 static_assert(std::size(kGeometryNames) == uint32_t(GeometryKind::kCount));
 constexpr const char* kLightNames[] = {"triangle", "sphere", "point", "distant", "mixed", "any"};
 static_assert(std::size(kLightNames) == kLightKernels);

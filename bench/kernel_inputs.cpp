@@ -97,6 +97,13 @@ Shape "trianglemesh" "integer indices" [0 2 1 0 3 2  4 5 6 4 6 7]
         "AttributeBegin\nMaterial {}\nTranslate {} 0.1 {}\n"
         "Shape \"sphere\" \"float radius\" [0.1]\nAttributeEnd\n",
         kMore[i], -0.84 + 0.24 * double(i % 8), -0.15 + 0.3 * double(i / 8));
+  for (const char* shape : {"\"cylinder\" \"float radius\" [.5]", "\"disk\"", "\"torus\""}) {
+    const int place = shape[1] == 'c' ? -1 : shape[1] == 'd' ? 0 : 1;
+    text += fmt::format(
+        "AttributeBegin\nNamedMaterial \"wall\"\nTranslate {} 0.6 0.1\nRotate 60 1 0 0\n"
+        "Scale .2 .2 .2\nShape {}\nAttributeEnd\n",
+        .6 * place, shape);
+  }
   // Small triangles, so that the tree has depth: a grid of tents on the floor.
   std::string points, indices;
   constexpr int kTents = 40;
@@ -222,6 +229,10 @@ bool record_hits(KernelInputs& in) {
                       kRows);
   k.intersect_planes(geometry.planes, geometry.triangles.count + geometry.spheres.count, rays,
                      in.camera_hits.columns(), kRows);
+  for (uint32_t kind = 0; kind < kShapeKinds; ++kind)
+    k.intersect_shapes[kind](
+        geometry.shapes, geometry.triangles.count + geometry.spheres.count + geometry.planes.count,
+        rays, in.camera_hits.columns(), kRows);
   const uint32_t* const depth = in.camera_paths.view().depth;
   if (in.plan.instances) {
     if (!k.intersect_instances || !k.classify_instance_hits) return false;

@@ -57,7 +57,10 @@ class Recorder {
         bin_(n),
         order_(n),
         finished_(n),
-        scratch_(kernels.traversal_scratch_bytes(view_.geometry.tree, n)) {
+        scratch_(std::max(kernels.traversal_scratch_bytes(view_.geometry.tree, n),
+                          scene.shape_tree.view.node_count
+                              ? kernels.shape_scratch_bytes(scene.shape_tree.view, n)
+                              : 0)) {
     PlanOptions plan;
     plan.max_depth = 0x7fff;
     plan.seed = options.seed;
@@ -139,6 +142,14 @@ class Recorder {
     if (plan_.planes)
       kernels_.intersect_planes(geometry.planes, triangles + geometry.spheres.count, rays_.view(),
                                 hits_.columns(), count_);
+    const uint32_t first_shape = triangles + geometry.spheres.count + geometry.planes.count;
+    for (uint32_t kind = 0; kind < kShapeKinds; ++kind)
+      if (plan_.shapes[kind])
+        kernels_.intersect_shapes[kind](geometry.shapes, first_shape, rays_.view(), hits_.columns(),
+                                        count_);
+    if (plan_.shape_tree)
+      kernels_.intersect_shape_tree(geometry, geometry.shapes.tree, rays_.view(), hits_.columns(),
+                                    count_, {scratch_.data(), scratch_.size()});
     kernels_.classify_hits(geometry.prim_bin, plan_.first_lasting_bin, plan_.transport.max_depth,
                            hits_.view(), paths_.view().depth, bin_.data(), count_);
   }

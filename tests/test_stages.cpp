@@ -116,7 +116,7 @@ TEST_P(Stages, SurfacesAreWhatDoublePrecisionSays) {
   const KernelTable& k = kernels();
   for (const float scale : {1.f, 1e-6f, 1e6f}) {
     const Shapes shapes(scale);
-    for (uint32_t kind = 0; kind < uint32_t(GeometryKind::kCount); ++kind)
+    for (uint32_t kind = 0; kind <= uint32_t(GeometryKind::kPlane); ++kind)
       for (const uint32_t n : tail_counts(k.lanes)) {
         Random random(3 + n);
         // Rows in order, in order with gaps, and anyhow: near rows are fetched in another way.

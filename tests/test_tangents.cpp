@@ -17,8 +17,10 @@ struct Rows {
   explicit Rows(uint32_t rows) : n(rows), surfaces(rows), x(rows), y(rows), z(rows) {}
   Tangent<Column> columns() { return {x.data(), y.data(), z.data()}; }
   glm::dvec3 tangent(uint32_t i) const { return {x[i], y[i], z[i]}; }
-  void set(uint32_t i, uint32_t prim, const glm::dvec3& ng, const glm::dvec3& ns) {
+  void set(uint32_t i, uint32_t prim, const glm::dvec3& ng, const glm::dvec3& ns,
+           const glm::dvec3& pos = {}) {
     Surface<Value> s{};
+    s.pos_x = float(pos.x), s.pos_y = float(pos.y), s.pos_z = float(pos.z);
     s.ng_x = float(ng.x), s.ng_y = float(ng.y), s.ng_z = float(ng.z);
     s.ns_x = float(ns.x), s.ns_y = float(ns.y), s.ns_z = float(ns.z);
     s.prim = prim;
@@ -74,28 +76,75 @@ TEST_P(Tangents, AreAlongDpDuOfTriangles) {
   }
 }
 
-TEST_P(Tangents, GoAroundSpheresAndAreNeverZero) {
+TEST_P(Tangents, GoAroundAxesOfSpheresAndAreNeverZero) {
   const KernelTable& k = kernels();
   Random random(6);
-  constexpr uint32_t n = 100;
-  Rows round(n), flat(n);
-  std::vector<glm::dvec3> normal(n);
+  constexpr uint32_t n = 101;
+  RowTable<SphereRow> spheres(n);
+  Rows rows(n);
+  std::vector<glm::dvec3> wanted(n);
   for (uint32_t i = 0; i < n; ++i) {
-    normal[i] = i == 0 ? glm::dvec3(0, 0, 1) : i == 1 ? glm::dvec3(0, 0, -1) : random.direction();
-    round.set(i, 0, normal[i], normal[i]);
-    flat.set(i, 0, normal[i], normal[i]);
+    const glm::dvec3 center = random.point(5), z = random.direction();
+    const glm::dvec3 x = glm::normalize(glm::cross(z, random.direction()));
+    const double hand = i % 2 ? 1 : -1, radius = std::pow(10., double(i % 7) - 3);
+    SphereRow<Value> s{};
+    s.center_x = float(center.x), s.center_y = float(center.y), s.center_z = float(center.z);
+    s.radius = float(radius);
+    s.x_x = float(x.x), s.x_y = float(x.y), s.x_z = float(x.z);
+    s.z_x = float(z.x), s.z_y = float(z.y), s.z_z = float(z.z);
+    s.hand = float(hand);
+    spheres.set(i, s);
+    // Seen from inside too.
+    const glm::dvec3 out = random.direction(), ng = i % 3 ? out : -out;
+    const glm::dvec3 ns = glm::normalize(ng + .2 * random.direction());
+    rows.set(i, 2 + i, ng, ns, center + radius * out);
+    const glm::dvec3 around = hand * glm::cross(z, out);
+    wanted[i] = glm::normalize(around - glm::dot(around, ns) * ns);
   }
-  const SceneView scene{};
-  k.make_tangents[uint32_t(GeometryKind::kSphere)](scene, round.surfaces.view(), round.columns(),
-                                                   n);
-  k.make_tangents[uint32_t(GeometryKind::kPlane)](scene, flat.surfaces.view(), flat.columns(), n);
+  // A pole.
+  SphereRow<Value> pole{};
+  pole.radius = 1, pole.z_z = 1, pole.x_x = 1, pole.hand = 1;
+  spheres.set(0, pole);
+  rows.set(0, 2, {0, 0, 1}, {0, 0, 1}, {0, 0, 1});
+  wanted[0] = arbitrary({0, 0, 1}, {0, 0, 1});
+  SceneView scene{};
+  scene.geometry.triangles.count = 2;
+  scene.geometry.spheres = spheres.view();
+  k.make_tangents[uint32_t(GeometryKind::kSphere)](scene, rows.surfaces.view(), rows.columns(), n);
+  for (uint32_t i = 0; i < n; ++i)
+    // Small ones far from the origin have a rounded place.
+    expect_near(rows.tangent(i), wanted[i], i % 7 < 2 ? 2e-2 : 1e-4, "sphere", i);
+}
+
+TEST_P(Tangents, OfPlanesAreWhereUGrows) {
+  const KernelTable& k = kernels();
+  Random random(7);
+  constexpr uint32_t n = 50;
+  RowTable<PlaneRow> planes(n);
+  Rows rows(n);
+  std::vector<glm::dvec3> wanted(n);
   for (uint32_t i = 0; i < n; ++i) {
-    const glm::dvec3& m = normal[i];
-    const glm::dvec3 around(-m.y, m.x, 0);
-    expect_near(round.tangent(i), i < 2 ? arbitrary(m, m) : glm::normalize(around), 1e-5, "sphere",
-                i);
-    expect_near(flat.tangent(i), arbitrary(m, m), 1e-6, "plane", i);
+    const glm::dvec3 normal = random.direction();
+    const glm::dvec3 du = 3. * glm::normalize(glm::cross(normal, random.direction()));
+    const glm::dvec3 dv = .5 * glm::cross(normal, du) + .3 * du;
+    // u and v of du * u + dv * v.
+    const glm::dvec3 u = glm::cross(dv, normal) / glm::dot(du, glm::cross(dv, normal));
+    const glm::dvec3 v = glm::cross(du, normal) / glm::dot(dv, glm::cross(du, normal));
+    PlaneRow<Value> p{};
+    p.normal_x = float(normal.x), p.normal_y = float(normal.y), p.normal_z = float(normal.z);
+    p.u_x = float(u.x), p.u_y = float(u.y), p.u_z = float(u.z);
+    p.v_x = float(v.x), p.v_y = float(v.y), p.v_z = float(v.z);
+    planes.set(i, p);
+    const glm::dvec3 ns = glm::normalize(normal + .2 * random.direction());
+    rows.set(i, 5 + i, normal, ns);
+    wanted[i] = glm::normalize(du - glm::dot(du, ns) * ns);
   }
+  SceneView scene{};
+  scene.geometry.triangles.count = 3;
+  scene.geometry.spheres.count = 2;
+  scene.geometry.planes = planes.view();
+  k.make_tangents[uint32_t(GeometryKind::kPlane)](scene, rows.surfaces.view(), rows.columns(), n);
+  for (uint32_t i = 0; i < n; ++i) expect_near(rows.tangent(i), wanted[i], 1e-5, "plane", i);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, kMaterialKinds> kMaterialNames = {
 #undef YAT_MATERIAL
 };
 constexpr std::array<std::string_view, uint32_t(GeometryKind::kCount)> kGeometryNames = {
-    "triangles", "triangles with vertex data", "spheres", "planes"};
+    "triangles", "triangles with vertex data", "spheres", "planes", "quadrics", "disks", "tori"};
 
 std::string_view filter_word(FilterKind kind) {
   switch (kind) {
@@ -84,11 +84,12 @@ std::string holds(const Description& description, const Scene& scene) {
   std::string text = fmt::format("Scene {} (hash {:016x})\n", description.file, scene.hash);
   text += fmt::format("  shapes     {} ({})\n", scene.shapes_read, shape_types(description));
   text += fmt::format(
-      "  geometry   {} triangles{}{}, {} spheres, {} planes\n", scene.triangles.size(),
+      "  geometry   {} triangles{}{}, {} spheres, {} planes{}\n", scene.triangles.size(),
       scene.triangle_vertices.size() ? " (with normals or uv)" : "",
       scene.degenerate_triangles ? fmt::format(" ({} without area)", scene.degenerate_triangles)
                                  : std::string(),
-      scene.spheres.size(), scene.planes.size());
+      scene.spheres.size(), scene.planes.size(),
+      scene.shapes.size() ? fmt::format(", {} other shapes", scene.shapes.size()) : std::string());
   if (!scene.instances.empty()) {
     uint64_t placed = 0;
     for (const SharedObject& object : scene.instances.objects)
@@ -198,6 +199,8 @@ std::string memory_of(const Scene& scene) {
   line("triangle vertices", scene.triangle_vertices.bytes());
   line("spheres", scene.spheres.bytes());
   line("planes", scene.planes.bytes());
+  line("other shapes", scene.shapes.bytes());
+  line("tree of shapes", scene.shape_tree.bytes());
   line("bin of primitive", scene.prim_bin.bytes());
   line("tree nodes", scene.tree.nodes.bytes());
   line("tree blocks", scene.tree.blocks.bytes());

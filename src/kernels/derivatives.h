@@ -1,17 +1,10 @@
 #pragma once
 // How surfaces lie in texture space, and how widely their rays see them.
 
-#include "kernels/math.h"
-#include "kernels/table.h"
+#include "kernels/shapes/tangents.h"
 #include "kernels/texture_step.h"
-#include "kernels/vec.h"
 
 namespace yat::YAT_ISA {
-
-template <class A>
-struct Tangents {
-  Vec3<A> du, dv;  ///< dp/du, dp/dv
-};
 
 /// Of a triangle with these edges; zero where its texture coordinates span no area.
 template <class A>
@@ -49,6 +42,39 @@ YAT_INLINE Tangents<A> instance_tangents_at(const SceneView& scene, const UInt<A
   return {to_scene(object.du), to_scene(object.dv)};
 }
 
+/// Rows [i, i + W) of a chunk, all of one kind; lanes that are not present have prim 0.
+template <class A>
+YAT_INLINE Tangents<A> tangents_of_rows(const SceneView& scene, GeometryKind kind,
+                                        const Surface<ConstColumn>& surfaces,
+                                        const Mask<A>& present, uint32_t i) {
+  const GeometryView& geometry = scene.geometry;
+  const UInt<A> prim = load<A>(surfaces.prim, i);
+  const auto row = [&](uint32_t first) { return only<A>(present, prim - UInt<A>(first)); };
+  const uint32_t first_sphere = geometry.triangles.count;
+  const uint32_t first_plane = first_sphere + geometry.spheres.count;
+  const Vec3<A> pos = position_of<A>(surfaces, i);
+  const Float<A> zero(0.f);
+  switch (kind) {
+    case GeometryKind::kTriangleVertex:
+      return tangents_at<A>(scene, row(0));
+    case GeometryKind::kSphere:
+      return sphere_tangents<A>(geometry.spheres, row(first_sphere), pos);
+    case GeometryKind::kPlane:
+      return plane_tangents<A>(geometry.planes, row(first_plane));
+    case GeometryKind::kQuadric:
+      return shape_tangents<A, ShapeKind::kQuadric>(geometry.shapes, row(first_shape(geometry)),
+                                                    pos);
+    case GeometryKind::kDisk:
+      return shape_tangents<A, ShapeKind::kDisk>(geometry.shapes, row(first_shape(geometry)), pos);
+    case GeometryKind::kTorus:
+      return shape_tangents<A, ShapeKind::kTorus>(geometry.shapes, row(first_shape(geometry)), pos);
+    case GeometryKind::kTriangleFlat:
+    case GeometryKind::kCount:
+      break;
+  }
+  return {{zero, zero, zero}, {zero, zero, zero}};
+}
+
 /// The part of a scattered ray's lobe that one ray stands for, as a share of the lobe's diameter:
 /// what a texture is averaged over must stay small against what many samples of a pixel see.
 inline constexpr float kScatterShare = 1.f / 16;
@@ -64,13 +90,12 @@ void make_derivatives(const SceneView& scene, GeometryKind geometry, const uint3
   const Float<A> pixel(__builtin_sqrtf(dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2]));
   for (uint32_t i = 0; i < n; i += kLanes<A>) {
     const Mask<A> present = tail_mask<A>(i, n);
-    const UInt<A> prim = only<A>(present, load<A>(surfaces.prim, i));
-    Tangents<A> t{{zero, zero, zero}, {zero, zero, zero}};
-    if (geometry == GeometryKind::kTriangleVertex)
-      t = instance ? instance_tangents_at<A>(
-                         scene, prim,
-                         only<A>(present, gather<A>(instance, only<A>(present, load<A>(order, i)))))
-                   : tangents_at<A>(scene, prim);
+    const Tangents<A> t =
+        instance && geometry == GeometryKind::kTriangleVertex
+            ? instance_tangents_at<A>(
+                  scene, only<A>(present, load<A>(surfaces.prim, i)),
+                  only<A>(present, gather<A>(instance, only<A>(present, load<A>(order, i)))))
+            : tangents_of_rows<A>(scene, geometry, surfaces, present, i);
     // A cone about the ray: a pixel wide from the camera, else a share of the solid angle 1 / pdf.
     // On the surface it is an ellipse, taken as the circle of its area.
     const Float<A> pdf = load<A>(paths.pdf, i);

@@ -4,6 +4,7 @@
 #include "kernels/accumulate.h"
 #include "kernels/drop.h"
 #include "kernels/light_choice.h"
+#include "kernels/lights/shape.h"
 #include "kernels/lights/sphere.h"
 #include "kernels/lights/triangle.h"
 
@@ -37,6 +38,11 @@ void add_emission(const SceneView& scene, const Surface<ConstColumn>& surfaces,
     Float<A> sampled = TriangleLight<A>::pdf(row, receiver, seen);
     if (any<A>(sphere & shining))
       sampled = select<A>(sphere, SphereLight<A>::pdf(row, receiver, seen), sampled);
+    const Mask<A> shape = shining & mask_of<A>(row.kind == UInt<A>(uint32_t(LightKind::kShape)));
+    if (any<A>(shape)) {
+      const Float<A> of_shape = ShapeLight<A>::pdf(scene.geometry.shapes, row, shape, pos, seen);
+      sampled = select<A>(shape, of_shape, sampled);
+    }
     sampled = sampled * chance_of_light<A>(row);
     const Float<A> weight =
         select<A>(scattered == zero, one, power_heuristic<A>(scattered, sampled));

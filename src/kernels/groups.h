@@ -14,6 +14,10 @@ void fill_split(KernelTable& table);        ///< materials made of others; veils
 void fill_textures(KernelTable& table);     ///< texture steps, per kind
 void fill_accumulate(KernelTable& table);   ///< shadow rays -> samples
 void fill_traverse(KernelTable& table);
+void fill_quadrics(KernelTable& table);  ///< analytic shapes but whole spheres and planes, by kind
+void fill_disks(KernelTable& table);
+void fill_tori(KernelTable& table);
+void fill_shape_tree(KernelTable& table);
 void fill_instances(KernelTable& table);  ///< all that only scenes with shared objects need
 
 }  // namespace yat::YAT_ISA

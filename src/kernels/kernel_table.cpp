@@ -23,6 +23,10 @@ const KernelTable* kernel_table() {
     fill_textures(t);
     fill_accumulate(t);
     fill_traverse(t);
+    fill_quadrics(t);
+    fill_disks(t);
+    fill_tori(t);
+    fill_shape_tree(t);
     fill_instances(t);
     return t;
   }();

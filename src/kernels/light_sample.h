@@ -8,6 +8,7 @@
 #include "kernels/lights/point.h"
 #include "kernels/lights/point_map.h"
 #include "kernels/lights/projection.h"
+#include "kernels/lights/shape.h"
 #include "kernels/lights/sky.h"
 #include "kernels/lights/sphere.h"
 #include "kernels/lights/spot.h"
@@ -48,6 +49,7 @@ struct LightOfKind<A, LightKind::kSky> : SkyLight<A> {};
 template <class A>
 struct LightQuery {
   const LightView& lights;
+  const ShapesView& shapes;
   const LightRowW<A>& row;
   Vec3<A> receiver;
   Float<A> far, u, v;
@@ -79,6 +81,20 @@ YAT_INLINE void pick_shaded_kind(const LightQuery<A>& query, ShadedPick<A>& pick
   pick.shade.r = select<A>(of_kind, p.shade.r, pick.shade.r);
   pick.shade.g = select<A>(of_kind, p.shade.g, pick.shade.g);
   pick.shade.b = select<A>(of_kind, p.shade.b, pick.shade.b);
+}
+
+/// The pick of analytic shapes, merged likewise.
+template <class A>
+YAT_INLINE void pick_shapes(const LightQuery<A>& query, LightPick<A>& pick) {
+  if (!(query.lights.kinds >> uint32_t(LightKind::kShape) & 1u)) return;
+  const Mask<A> of_kind = mask_of<A>(query.row.kind == UInt<A>(uint32_t(LightKind::kShape)));
+  if (!any<A>(of_kind)) return;
+  const LightPick<A> p =
+      ShapeLight<A>::sample(query.shapes, query.row, of_kind, query.receiver, query.u, query.v);
+  pick.wi = select(of_kind, p.wi, pick.wi);
+  pick.to = select(of_kind, p.to, pick.to);
+  pick.measure = select<A>(of_kind, p.measure, pick.measure);
+  pick.pdf = select<A>(of_kind, p.pdf, pick.pdf);
 }
 
 /// The pick of any of the first kPlainLightKinds kinds.
@@ -117,7 +133,7 @@ void sample_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
       u = only<A>(active, u);
       v = only<A>(active, v);
     }
-    const LightQuery<A> query{lights, row, receiver, far, u, v};
+    const LightQuery<A> query{lights, scene.geometry.shapes, row, receiver, far, u, v};
     ShadedPick<A> pick;
     if constexpr (kKernel >= kPlainLights) {
       pick.wi = {zero, zero, one};
@@ -132,6 +148,7 @@ void sample_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
       pick_shaded_kind<A, LightKind::kSpot>(query, pick);
       pick_shaded_kind<A, LightKind::kPointMap>(query, pick);
       pick_shaded_kind<A, LightKind::kProjection>(query, pick);
+      pick_shapes<A>(query, pick);
       pick_shaded_kind<A, LightKind::kConstant>(query, pick);
       pick_shaded_kind<A, LightKind::kImage>(query, pick);
       pick_shaded_kind<A, LightKind::kSun>(query, pick);

@@ -68,7 +68,12 @@ YAT_INLINE LocalGeometry<A> sphere_geometry(const Rows<SphereRow>& spheres,
   g.ng = select(mask_of<A>(s.inward != UInt<A>(0u)), -outward, outward);
   g.ns = g.ng;
   g.offset = surface_offset(largest_magnitude(center) + s.radius, g.ng);
-  g.u = g.v = Float<A>(0.f);
+  const Vec3<A> x{s.x_x, s.x_y, s.x_z}, z{s.z_x, s.z_y, s.z_z};
+  const Float<A> across = dot(outward, x), up = dot(outward, z);
+  const Float<A> side = s.hand * dot(outward, cross(z, x));
+  const Float<A> theta = angle_in_turns<A>(up, xsimd::sqrt(across * across + side * side));
+  g.u = angle_in_turns<A>(across, side);
+  g.v = Float<A>(1.f) - Float<A>(2.f) * theta;
   g.parameter = s.parameter;
   g.light = s.light;
   return g;
@@ -83,7 +88,8 @@ YAT_INLINE LocalGeometry<A> plane_geometry(const Rows<PlaneRow>& planes, const V
   g.ng = g.ns = {p.normal_x, p.normal_y, p.normal_z};
   g.pos = hit_point - (dot(g.ng, hit_point) - p.distance) * g.ng;
   g.offset = surface_offset(xsimd::max(largest_magnitude(hit_point), xsimd::abs(p.distance)), g.ng);
-  g.u = g.v = Float<A>(0.f);
+  g.u = dot(Vec3<A>{p.u_x, p.u_y, p.u_z}, g.pos) + p.u_0;
+  g.v = dot(Vec3<A>{p.v_x, p.v_y, p.v_z}, g.pos) + p.v_0;
   g.parameter = p.parameter;
   g.light = UInt<A>(kNone);
   return g;

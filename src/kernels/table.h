@@ -111,7 +111,16 @@ struct ShadeInput {
   Tangent<ConstColumn> tangents = {};  ///< null columns: materials see any frame about the normal
 };
 
-enum class GeometryKind : uint32_t { kTriangleFlat, kTriangleVertex, kSphere, kPlane, kCount };
+enum class GeometryKind : uint32_t {
+  kTriangleFlat,
+  kTriangleVertex,
+  kSphere,
+  kPlane,
+  kQuadric,  ///< kQuadric + ShapeKind from here on
+  kDisk,
+  kTorus,
+  kCount
+};
 
 /// Light kinds that have a sampling kernel of their own: the first ones, which most scenes have.
 inline constexpr uint32_t kPlainLightKinds = 4;
@@ -157,6 +166,22 @@ struct KernelTable {
                          uint32_t n) noexcept;
   void (*shadow_planes)(const Rows<PlaneRow>&, const ShadowRay<ConstColumn>&, uint32_t* occluded,
                         uint32_t n) noexcept;
+
+  // -- other analytic shapes --------------------------------------------------------------------
+  /// Rows shapes.kinds[k], of kind k, one after the other: as
+  /// intersect_spheres and shadow_spheres. `first_prim` is the primitive row of shape row 0.
+  void (*intersect_shapes[kShapeKinds])(const ShapesView&, uint32_t first_prim,
+                                        const Ray<ConstColumn>&, const Hit<Column>&,
+                                        uint32_t n) noexcept;
+  void (*shadow_shapes[kShapeKinds])(const ShapesView&, const ShadowRay<ConstColumn>&,
+                                     uint32_t* occluded, uint32_t n) noexcept;
+  /// Spheres and shapes by a tree over them: all of the scene, or its veils. Shadow rays take the
+  /// scene's.
+  size_t (*shape_scratch_bytes)(const TreeView&, uint32_t max_rays) noexcept;
+  LaneCount (*intersect_shape_tree)(const GeometryView&, const TreeView&, const Ray<ConstColumn>&,
+                                    const Hit<Column>&, uint32_t n, const Scratch&) noexcept;
+  LaneCount (*shadow_shape_tree)(const GeometryView&, const ShadowRay<ConstColumn>&,
+                                 uint32_t* occluded, uint32_t n, const Scratch&) noexcept;
 
   // -- instances: for scenes that have shared objects ---------------------------------------------
   size_t (*instance_scratch_bytes)(const InstancesView&, uint32_t max_rays) noexcept;

@@ -3,6 +3,7 @@
 // normal. Runs in bins of such materials only.
 
 #include "kernels/math.h"
+#include "kernels/surface_axes.h"
 #include "kernels/table.h"
 #include "kernels/vec.h"
 
@@ -47,6 +48,11 @@ YAT_INLINE void store_tangent(const Vec3<A>& t, const Tangent<Column>& tangents,
 }
 
 template <class A>
+YAT_INLINE Vec3<A> position_of(const Surface<ConstColumn>& s, uint32_t row) {
+  return {load<A>(s.pos_x, row), load<A>(s.pos_y, row), load<A>(s.pos_z, row)};
+}
+
+template <class A>
 struct SurfaceNormals {
   Vec3<A> ng, ns;
   static YAT_INLINE SurfaceNormals load_rows(const Surface<ConstColumn>& s, uint32_t row) {
@@ -70,8 +76,14 @@ void make_tangents(const SceneView& scene, const Surface<ConstColumn>& surfaces,
                                    Vec3<A>{t.p2_x - t.p0_x, t.p2_y - t.p0_y, t.p2_z - t.p0_z},
                                    gather<A>(scene.geometry.triangle_vertices, prim));
     } else if constexpr (kKind == GeometryKind::kSphere) {
-      // Around the sphere's axis, which is kept only as the scene's z.
-      along = {-normals.ng.y, normals.ng.x, zero};
+      const UInt<A> sphere = load<A>(surfaces.prim, row) - UInt<A>(scene.geometry.triangles.count);
+      along = sphere_tangents<A>(scene.geometry.spheres, only<A>(tail_mask<A>(row, n), sphere),
+                                 position_of<A>(surfaces, row))
+                  .du;
+    } else if constexpr (kKind == GeometryKind::kPlane) {
+      const UInt<A> plane = load<A>(surfaces.prim, row) -
+                            UInt<A>(scene.geometry.triangles.count + scene.geometry.spheres.count);
+      along = plane_tangents<A>(scene.geometry.planes, only<A>(tail_mask<A>(row, n), plane)).du;
     }
     store_tangent<A>(tangent_across<A>(along, normals.ng, normals.ns), tangents, row);
   }

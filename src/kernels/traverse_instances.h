@@ -11,18 +11,13 @@
 // nearest hit so far and the instance; the order of instances from the ray's octant. Of equal
 // distances the scene's own primitives win, then the lower instance, then the lower row.
 
-#include "kernels/math.h"
-#include "kernels/traverse.h"
-#include "kernels/vec.h"
+#include "kernels/sphere_entry.h"
+#include "kernels/traverse_top.h"
 
 namespace yat::YAT_ISA {
 
 template <class A>
 using InstanceRowW = InstanceRow<Lanes<A>::template Of>;
-
-// Records of the top tree's rays (kernels/traverse_rays.h) hold the ray as it came in the place of
-// the triangle test's numbers: words 8..15 are t, origin, direction, prim.
-inline constexpr uint32_t kRecordRay = 8;
 
 /// Lists of up to this many rays go through an object's tree in one pass.
 inline constexpr uint32_t kMostInOnePass = 256;
@@ -77,30 +72,12 @@ struct InstanceLeaves {
   YAT_INLINE void enter(const InstanceRowW<A>& row, const uint32_t* slots, uint32_t n,
                         const Ray<Column>& to, float* start) const {
     const Vec3<A> center{row.org_x, row.org_y, row.org_z};
-    const Float<A> zero(0.f), one(1.f);
     for (uint32_t i = 0; i < n; i += W) {
       Float<A> ray[8];
       load_rows8<A>(records + kRecordRay, slots + i, kRecordWords, ray);
       const Vec3<A> org{ray[1], ray[2], ray[3]}, dir{ray[4], ray[5], ray[6]};
-      // Up to the point nearest to the centre, and back to the sphere: the first by a distance with
-      // a rounding error of the way, the second from where that led. 64 roundings of the way keep
-      // the start outside.
-      const Float<A> inverse = one / dot(dir, dir);
-      const Float<A> way = dot(center - org, dir) * inverse;
-      const Vec3<A> nearest{xsimd::fma(way, dir.x, org.x) - center.x,
-                            xsimd::fma(way, dir.y, org.y) - center.y,
-                            xsimd::fma(way, dir.z, org.z) - center.z};
-      const Float<A> within =
-          xsimd::max(row.radius * row.radius - dot(nearest, nearest), zero) * inverse;
-      const Float<A> begin = way * Float<A>(1.f - 64 * kRounding) - xsimd::sqrt(within);
-      // A NaN (a direction whose square is no float) stays where it is.
-      const Mask<A> ahead = begin > zero;
-      const Float<A> skip = only<A>(ahead, begin);
-      const Vec3<A> from = select(ahead,
-                                  {xsimd::fma(skip, dir.x, org.x), xsimd::fma(skip, dir.y, org.y),
-                                   xsimd::fma(skip, dir.z, org.z)},
-                                  org) -
-                           center;
+      const Float<A> skip = enter_sphere<A>(center, row.radius, org, dir).skip;
+      const Vec3<A> from = start_at(org, dir, skip) - center;
       const auto map = [&row](const Vec3<A>& v) {
         return Vec3<A>{row.o_xx * v.x + row.o_xy * v.y + row.o_xz * v.z,
                        row.o_yx * v.x + row.o_yy * v.y + row.o_yz * v.z,
@@ -217,19 +194,7 @@ YAT_INLINE LaneCount trace_instances(const InstancesView& instances, const Ray<C
   auto* const moved = reinterpret_cast<float*>(take_bytes(free, plan.words));
   instance_of = reinterpret_cast<uint32_t*>(take_bytes(free, plan.words));
   const uint32_t left_out = stream.left_out;
-  for (uint32_t row = 0; row < n; row += W) {
-    const RawRays<A> r = load_raw<A, Q>(rays, row);
-    const uint32_t* const slot = stream.slot_of_row + row;
-    Float<A> shift(0.f);
-    if (stream.any_shift) shift = load<A>(stream.shift, row);
-    store_rows4<A>(r.t_max - shift, r.org[0], r.org[1], r.org[2], stream.records + kRecordRay, slot,
-                   kRecordWords);
-    store_rows4<A>(r.dir[0], r.dir[1], r.dir[2], as_float<A>(UInt<A>(kNone)),
-                   stream.records + kRecordRay + 4, slot, kRecordWords);
-    alignas(64) float shifts[W];
-    shift.store_aligned(shifts);
-    for (uint32_t i = 0; i < W; ++i) moved[slot[i]] = shifts[i];
-  }
+  write_raw_rays<A, Q>(rays, n, stream, moved);
   stream.records[size_t(left_out) * kRecordWords + kRecordT] = 0.f;  // Not occluded.
   for (uint32_t i = 0; i <= left_out; i += W) UInt<A>(kNone).store_unaligned(instance_of + i);
 

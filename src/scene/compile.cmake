@@ -2,6 +2,7 @@
 target_sources(
   yat_scene
   PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/alias_table.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/analytic_shape.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/colour_model.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_camera.cpp
@@ -44,4 +45,9 @@ target_sources(
           ${CMAKE_CURRENT_SOURCE_DIR}/light_maps.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/light_pictures.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/material_traits.cpp
-          ${CMAKE_CURRENT_SOURCE_DIR}/parameters.cpp)
+          ${CMAKE_CURRENT_SOURCE_DIR}/parameters.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/parametric_mesh.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/read_analytic.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/read_meshes.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/stl.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/subdivide.cpp)

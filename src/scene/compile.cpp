@@ -179,6 +179,9 @@ SceneView Scene::view() const {
   view.geometry.triangle_vertices = triangle_vertices.view();
   view.geometry.spheres = spheres.view();
   view.geometry.planes = planes.view();
+  view.geometry.shapes.rows = shapes.view();
+  std::copy(shape_rows.begin(), shape_rows.end(), view.geometry.shapes.kinds);
+  view.geometry.shapes.tree = shape_tree.view;
   view.geometry.prim_bin = prim_bin.data();
   view.geometry.all_occlude = all_occlude;
   const auto from = []<template <template <class> class> class Record>(Rows<Record> rows,
@@ -190,6 +193,9 @@ SceneView Scene::view() const {
   view.veils.first_sphere = triangles.size() + first_veil_sphere;
   view.veils.planes = from(planes.view(), first_veil_plane);
   view.veils.first_plane = triangles.size() + spheres.size() + first_veil_plane;
+  view.veils.shapes.rows = shapes.view();
+  std::copy(veil_shape_rows.begin(), veil_shape_rows.end(), view.veils.shapes.kinds);
+  view.veils.shapes.tree = veil_shape_tree.view;
   view.instances = instances.view();
   view.lights.rows = lights.view();
   view.lights.choice = light_choice.view();
@@ -216,7 +222,8 @@ SceneView Scene::view() const {
 
 size_t Scene::bytes() const {
   size_t sum = triangles.bytes() + triangle_vertices.bytes() + spheres.bytes() + planes.bytes() +
-               prim_bin.bytes() + tree.bytes() + veils.bytes() + instances.object_bytes() +
+               shapes.bytes() + shape_tree.bytes() + veil_shape_tree.bytes() + prim_bin.bytes() +
+               tree.bytes() + veils.bytes() + instances.object_bytes() +
                instances.instance_bytes() + lights.bytes() + light_choice.bytes() +
                light_maps.bytes() + skies.bytes() + light_texels.bytes() + light_cells.bytes() +
                filter_quantile_x.bytes() + filter_quantile_y.bytes() + filter_marginal.bytes() +

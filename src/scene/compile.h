@@ -59,6 +59,10 @@ struct Bin {
 };
 inline constexpr uint32_t kMaxBins = 1024;  ///< in practice below 40
 
+/// Up to this many spheres and shapes are tried one after the other; more have a tree
+/// (docs/decisions.md).
+inline constexpr uint32_t kTriedShapes = 8;
+
 /// --tree: which tree over the triangles.
 enum class TreeChoice {
   kFromScene,  ///< a strict kd-tree where the scene says Accelerator "kdtree", else the best
@@ -107,11 +111,16 @@ struct Scene {
   RowTable<TriangleVertexRow> triangle_vertices;
   RowTable<SphereRow> spheres;
   RowTable<PlaneRow> planes;
+  RowTable<ShapeRow> shapes;                       ///< by kind, veils last in each
+  std::array<RowRange, kShapeKinds> shape_rows{};  ///< see ShapesView
+  Tree shape_tree;                                 ///< over spheres and shapes, if many
   AlignedArray<uint32_t> prim_bin;
   Tree tree;
   Tree veils;  ///< of the triangles that are veils, again
   /// Spheres and planes from these on are veils.
   uint32_t first_veil_sphere = 0, first_veil_plane = 0;
+  std::array<RowRange, kShapeKinds> veil_shape_rows{};  ///< other shapes that are veils
+  Tree veil_shape_tree;  ///< over spheres and shapes that are, if many
   Instances instances;
   RowTable<LightRow> lights;
   RowTable<LightChoice> light_choice;

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "scene/compile_parts.h"
 
@@ -39,13 +41,10 @@ bool is_finite(const glm::dvec3& v) {
 
 void add_to_bounds(const PlacedShape& placed, Bounds& bounds) {
   const CompiledShape& shape = *placed.shape;
-  if (shape.kind == CompiledShape::Kind::kSphere) {
-    // The ellipsoid's extent along an axis is the length of that row of the matrix.
-    const glm::dmat3 rows = glm::transpose(placed.placement.linear);
-    const glm::dvec3 half =
-        shape.radius * glm::dvec3(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
-    bounds.add(placed.placement.origin - half);
-    bounds.add(placed.placement.origin + half);
+  if (shape.kind == CompiledShape::Kind::kSphere || shape.kind == CompiledShape::Kind::kAnalytic) {
+    const TopBox box = bounds_of(shape.analytic, placed.placement);
+    bounds.add({box.min[0], box.min[1], box.min[2]});
+    bounds.add({box.max[0], box.max[1], box.max[2]});
   } else if (shape.kind == CompiledShape::Kind::kMesh) {
     // Only vertices that a face uses: a stray one must not move the centre.
     for (uint32_t i : shape.mesh.indices) {
@@ -97,6 +96,8 @@ void GeometryRows::add(const PlacedShape& placed) {
       return add_sphere(placed);
     case CompiledShape::Kind::kPlane:
       return add_plane(placed);
+    case CompiledShape::Kind::kAnalytic:
+      return add_shape(placed);
   }
 }
 
@@ -122,14 +123,7 @@ void GeometryRows::add_mesh(const PlacedShape& placed, const Mesh& mesh) {
 }
 
 void GeometryRows::add_sphere(const PlacedShape& placed) {
-  if (!placed.placement.scale) {
-    // Only an instance can do this: compile_shape() has seen the shape's own transform.
-    diagnostics_.warning(placed.loc,
-                         "an instance scales a sphere to an ellipsoid: it is rendered as "
-                         "65000 triangles");
-    const double r = placed.shape->radius;
-    return add_mesh(placed, make_sphere_mesh(r, -r, r, 2 * std::numbers::pi));
-  }
+  if (!placed.placement.scale) return add_shape(placed);
   const glm::vec3 at(placed.placement.origin - center_);
   SphereRow<Value> row{};
   row.center_x = at.x, row.center_y = at.y, row.center_z = at.z;
@@ -140,6 +134,11 @@ void GeometryRows::add_sphere(const PlacedShape& placed) {
     return;
   }
   row.inward = placed.reverse_orientation;
+  const glm::vec3 x(placed.placement.linear[0] / *placed.placement.scale),
+      z(placed.placement.linear[2] / *placed.placement.scale);
+  row.x_x = x.x, row.x_y = x.y, row.x_z = x.z;
+  row.z_x = z.x, row.z_y = z.y, row.z_z = z.z;
+  row.hand = placed.placement.mirrored ? -1.f : 1.f;
   row.parameter = placed.material.row;
   row.occludes = placed.material.passing == Passing::kSolid;
   row.light = kNone;
@@ -156,6 +155,15 @@ void GeometryRows::add_sphere(const PlacedShape& placed) {
     lights_.push_back(light);
   }
   spheres_.push_back(row);
+  TopBox box;
+  const double grow =
+      64 * 0x1p-24 *
+      double(row.radius + std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}));
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min[axis] = double(at[axis]) - double(row.radius) - grow;
+    box.max[axis] = double(at[axis]) + double(row.radius) + grow;
+  }
+  sphere_boxes_.push_back(box);
   sphere_keys_.push_back(
       BinKey::of(GeometryKind::kSphere, placed.material, placed.emissive(), Placing::kOnce));
 }
@@ -166,6 +174,17 @@ void GeometryRows::add_plane(const PlacedShape& placed) {
   PlaneRow<Value> row{};
   row.normal_x = float(normal.x), row.normal_y = float(normal.y), row.normal_z = float(normal.z);
   row.distance = float(glm::dot(normal, placed.placement.origin - center_));
+  // u along object space's x as nearly as the plane has it, v to the left of it: x and y of the
+  // usual plane.
+  const glm::dvec3 n = glm::normalize(placed.shape->normal);
+  const glm::dvec3 x = std::abs(n.x) < .99 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 along = glm::normalize(x - glm::dot(x, n) * n);
+  const glm::dvec3 u = placed.placement.normal_map * along,
+                   v = placed.placement.normal_map * glm::cross(n, along);
+  row.u_x = float(u.x), row.u_y = float(u.y), row.u_z = float(u.z);
+  row.v_x = float(v.x), row.v_y = float(v.y), row.v_z = float(v.z);
+  row.u_0 = float(glm::dot(u, center_ - placed.placement.origin));
+  row.v_0 = float(glm::dot(v, center_ - placed.placement.origin));
   row.parameter = placed.material.row;
   row.occludes = placed.material.passing == Passing::kSolid;
   planes_.push_back(row);
@@ -173,19 +192,44 @@ void GeometryRows::add_plane(const PlacedShape& placed) {
       BinKey::of(GeometryKind::kPlane, placed.material, placed.emissive(), Placing::kOnce));
 }
 
+void GeometryRows::add_shape(const PlacedShape& placed) {
+  const AnalyticShape& shape = placed.shape->analytic;
+  ShapeRow<Value> row = shape_row(shape, placed.placement, placed.reverse_orientation, center_);
+  if (!std::isfinite(row.o_xx + row.w_xx + row.radius) || !(row.radius > 0)) {
+    diagnostics_.warning(placed.loc,
+                         "the shape's size in the world is beyond what floats hold: left out");
+    return;
+  }
+  row.parameter = placed.material.row;
+  row.occludes = placed.material.passing == Passing::kSolid;
+  if (placed.emissive()) {
+    row.light = uint32_t(lights_.size());
+    LightRow<Value> light{};
+    light.kind = uint32_t(LightKind::kShape);
+    light.extra = float(area_of(shape, placed.placement.linear));
+    light.radiance_r = float(placed.radiance.x);
+    light.radiance_g = float(placed.radiance.y);
+    light.radiance_b = float(placed.radiance.z);
+    lights_.push_back(light);
+  }
+  analytic_.push_back(row);
+  analytic_boxes_.push_back(traced_bounds(shape, placed.placement, center_));
+  analytic_keys_.push_back(BinKey::of(GeometryKind(uint32_t(GeometryKind::kQuadric) + row.kind),
+                                      placed.material, placed.emissive(), Placing::kOnce));
+}
+
 void GeometryRows::add_keys(BinKeys& keys) const {
   for (const Run& run : triangle_runs_) keys.add(run.key);
   for (const BinKey& key : sphere_keys_) keys.add(key);
   for (const BinKey& key : plane_keys_) keys.add(key);
+  for (const BinKey& key : analytic_keys_) keys.add(key);
 }
 
 void GeometryRows::finish(const BinKeys& keys, Scene& scene, std::vector<uint8_t>& occludes) {
   const auto n = uint32_t(triangles_.size());
   scene.triangles.resize(n);
   if (!vertices_.empty()) scene.triangle_vertices.resize(n);
-  scene.spheres.resize(uint32_t(spheres_.size()));
-  scene.planes.resize(uint32_t(planes_.size()));
-  scene.prim_bin.resize(n + spheres_.size() + planes_.size());
+  scene.prim_bin.resize(n + spheres_.size() + planes_.size() + analytic_.size());
   scene.all_occlude = true;
 
   uint32_t prim = 0, vertex_row = 0;
@@ -204,17 +248,69 @@ void GeometryRows::finish(const BinKeys& keys, Scene& scene, std::vector<uint8_t
         scene.triangle_vertices.set(prim, vertices_[vertex_row++]);
     }
   }
-  const auto set = [&](auto& table, const auto& rows, const std::vector<BinKey>& row_keys) {
-    const VeilsLast order(row_keys);
+  const auto set = [&](auto& table, const auto& rows, const std::vector<BinKey>& row_keys,
+                       const std::vector<uint32_t>& order) {
+    table.resize(uint32_t(rows.size()));
     for (uint32_t r = 0; r < rows.size(); ++r, ++prim) {
-      table.set(r, rows[order.rows[r]]);
-      ++scene.bins[scene.prim_bin[prim] = keys.bin(row_keys[order.rows[r]])].primitives;
+      table.set(r, rows[order[r]]);
+      ++scene.bins[scene.prim_bin[prim] = keys.bin(row_keys[order[r]])].primitives;
     }
-    return order.first_veil;
   };
-  scene.first_veil_sphere = set(scene.spheres, spheres_, sphere_keys_);
-  scene.first_veil_plane = set(scene.planes, planes_, plane_keys_);
+  const VeilsLast sphere_order(sphere_keys_), plane_order(plane_keys_);
+  set(scene.spheres, spheres_, sphere_keys_, sphere_order.rows);
+  set(scene.planes, planes_, plane_keys_, plane_order.rows);
+  scene.first_veil_sphere = sphere_order.first_veil;
+  scene.first_veil_plane = plane_order.first_veil;
+  const std::vector<uint32_t> shape_order = order_shapes(scene);
+  set(scene.shapes, analytic_, analytic_keys_, shape_order);
+  build_shape_trees(sphere_order.rows, shape_order, scene);
   scene.degenerate_triangles += degenerate_;
+}
+
+std::vector<uint32_t> GeometryRows::order_shapes(Scene& scene) {
+  std::vector<uint32_t> order(analytic_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto place = [this](uint32_t row) {
+    return std::pair(analytic_[row].kind, analytic_keys_[row].passing == Passing::kVeil);
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](uint32_t a, uint32_t b) { return place(a) < place(b); });
+  for (uint32_t kind = 0; kind < kShapeKinds; ++kind) {
+    const auto begin_of = [&](bool veils) {
+      return uint32_t(
+          std::partition_point(order.begin(), order.end(),
+                               [&](uint32_t row) { return place(row) < std::pair(kind, veils); }) -
+          order.begin());
+    };
+    scene.shape_rows[kind] = {begin_of(false), 0};
+    scene.veil_shape_rows[kind] = {begin_of(true), 0};
+  }
+  for (uint32_t kind = 0; kind < kShapeKinds; ++kind) {
+    const uint32_t end =
+        kind + 1 < kShapeKinds ? scene.shape_rows[kind + 1].first : uint32_t(order.size());
+    scene.shape_rows[kind].end = scene.veil_shape_rows[kind].end = end;
+  }
+  for (uint32_t s = 0; s < order.size(); ++s)
+    if (const uint32_t light = analytic_[order[s]].light; light != kNone)
+      lights_[light].a_x = std::bit_cast<float>(s);
+  return order;
+}
+
+void GeometryRows::build_shape_trees(const std::vector<uint32_t>& sphere_order,
+                                     const std::vector<uint32_t>& shape_order, Scene& scene) const {
+  std::vector<TopBox> all, veils;
+  std::vector<uint32_t> veil_items;  // what a leaf of the tree over veils stands for
+  const auto add = [&](const TopBox& box, const BinKey& key) {
+    if (key.passing == Passing::kVeil) {
+      veils.push_back(box);
+      veil_items.push_back(uint32_t(all.size()));
+    }
+    all.push_back(box);
+  };
+  for (const uint32_t row : sphere_order) add(sphere_boxes_[row], sphere_keys_[row]);
+  for (const uint32_t row : shape_order) add(analytic_boxes_[row], analytic_keys_[row]);
+  if (all.size() > kTriedShapes) scene.shape_tree = build_top_tree(all);
+  if (veils.size() > kTriedShapes) scene.veil_shape_tree = build_top_tree(veils, veil_items);
 }
 
 }  // namespace yat

@@ -202,6 +202,7 @@ double light_power(const LightRow<Value>& light, const ColourModel& colour, doub
   const double cross_section = kPi * scene_radius * scene_radius, sphere = 4 * kPi;
   switch (LightKind(light.kind)) {
     case LightKind::kTriangle:
+    case LightKind::kShape:
       return kPi * extra * y;
     case LightKind::kSphere:
       return kPi * sphere * extra * extra * y;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/analytic_shape.h"
 #include "scene/compile.h"
 #include "scene/compile_programs.h"
 #include "scene/compile_textures.h"
@@ -101,12 +102,13 @@ struct Mesh {
   uint32_t triangles() const { return uint32_t(indices.size() / 3); }
 };
 
-/// A shape ready to be placed: exactly one of the three.
+/// A shape ready to be placed: exactly one of the four.
 struct CompiledShape {
-  enum class Kind { kMesh, kSphere, kPlane } kind = Kind::kMesh;
+  enum class Kind { kMesh, kSphere, kPlane, kAnalytic } kind = Kind::kMesh;
   Mesh mesh;
-  double radius = 1;                 ///< sphere, object space
-  glm::dvec3 normal{0, 0, 1};        ///< plane through the origin, object space
+  double radius = 1;           ///< whole sphere, object space
+  AnalyticShape analytic;      ///< also of a whole sphere: what it is where it is no more round
+  glm::dvec3 normal{0, 0, 1};  ///< plane through the origin, object space
   std::optional<double> light_area;  ///< quadrics: the area of light power, object space (lxs 6.2)
 };
 
@@ -131,10 +133,6 @@ struct Placement {
 /// Empty, and reported as an error, for a singular or non-finite matrix.
 std::optional<Placement> make_placement(const Matrix& matrix, SourceLoc loc,
                                         const std::string& what, Diagnostics& diagnostics);
-
-/// Part of a sphere around the origin, z in [z0, z1] and phi in [0, phi_max] (radians), as 128
-/// rings of 256 quads with exact normals. Normals and winding point outwards.
-Mesh make_sphere_mesh(double radius, double z0, double z1, double phi_max);
 
 /// World-space area of a mesh; triangles with non-finite vertices count nothing.
 double mesh_area(const Mesh& mesh, const Placement& placement);
@@ -215,6 +213,13 @@ class GeometryRows {
   void add_mesh(const PlacedShape& placed, const Mesh& mesh);
   void add_sphere(const PlacedShape& placed);
   void add_plane(const PlacedShape& placed);
+  void add_shape(const PlacedShape& placed);
+  /// The other shapes in the order of their table: by kind, veils last, as they came. Writes the
+  /// ranges into the scene, and the lights' rows.
+  std::vector<uint32_t> order_shapes(Scene& scene);
+  /// Trees over spheres and shapes where there are many; the orders are those of the tables.
+  void build_shape_trees(const std::vector<uint32_t>& sphere_order,
+                         const std::vector<uint32_t>& shape_order, Scene& scene) const;
 
   /// Rows [first, ..) of a primitive kind that share a bin.
   struct Run {
@@ -228,7 +233,9 @@ class GeometryRows {
   std::vector<TriangleVertexRow<Value>> vertices_;  ///< of runs with kTriangleVertex, in order
   std::vector<SphereRow<Value>> spheres_;
   std::vector<PlaneRow<Value>> planes_;
-  std::vector<BinKey> sphere_keys_, plane_keys_;
+  std::vector<ShapeRow<Value>> analytic_;
+  std::vector<BinKey> sphere_keys_, plane_keys_, analytic_keys_;
+  std::vector<TopBox> sphere_boxes_, analytic_boxes_;  ///< what rays meet lies within
   std::vector<LightRow<Value>> lights_;
   uint32_t degenerate_ = 0;
 };

@@ -180,6 +180,8 @@ void ShapePlacer::place_lamp(const SphereLamp& lamp, SourceLoc loc) {
     lamp_sphere_.emplace();
     lamp_sphere_->kind = CompiledShape::Kind::kSphere;
     lamp_sphere_->radius = SphereLamp::kRadius;
+    lamp_sphere_->analytic = make_sphere(SphereLamp::kRadius, -SphereLamp::kRadius,
+                                         SphereLamp::kRadius, 2 * std::numbers::pi);
   }
   PlacedShape placed;
   placed.shape = &*lamp_sphere_;

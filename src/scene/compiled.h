@@ -2,8 +2,8 @@
 // What kernels read: plain views of the compiled scene. Rows, not pointers; read-only while
 // rendering; no containers here, so that kernel sources may include it.
 //
-// Primitive rows: triangles first, then spheres, then planes:
-//   [0, triangles)  [triangles, + spheres)  [.., + planes)
+// Primitive rows: triangles first, then spheres, planes and the other analytic shapes:
+//   [0, triangles)  [triangles, + spheres)  [.., + planes)  [.., + shapes)
 // Triangles of shared objects are not among them: a hit there names an instance and a row of
 // InstancesView::triangles.
 
@@ -44,7 +44,10 @@ struct SphereRow {
   Of<uint32_t> inward;
   Of<uint32_t> parameter, light;
   Of<uint32_t> occludes;  ///< 1: stops shadow rays; 0: see-through (null material)
-  YAT_FIELDS(center_x, center_y, center_z, radius, inward, parameter, light, occludes)
+  /// The sphere's own x and z axes, unit, in scene space; y = hand * (z cross x), hand 1 or -1.
+  Of<float> x_x, x_y, x_z, z_x, z_y, z_z, hand;
+  YAT_FIELDS(center_x, center_y, center_z, radius, inward, parameter, light, occludes, x_x, x_y,
+             x_z, z_x, z_y, z_z, hand)
 };
 static_assert(all_fields_listed<SphereRow>);
 
@@ -54,9 +57,56 @@ struct PlaneRow {
   Of<float> normal_x, normal_y, normal_z, distance;  ///< unit normal; scene space [m]
   Of<uint32_t> parameter;
   Of<uint32_t> occludes;
-  YAT_FIELDS(normal_x, normal_y, normal_z, distance, parameter, occludes)
+  /// u = dot(u_xyz, p) + u_0, v likewise: lengths of object space along two axes of the plane.
+  Of<float> u_x, u_y, u_z, u_0, v_x, v_y, v_z, v_0;
+  YAT_FIELDS(normal_x, normal_y, normal_z, distance, parameter, occludes, u_x, u_y, u_z, u_0, v_x,
+             v_y, v_z, v_0)
 };
 static_assert(all_fields_listed<PlaneRow>);
+
+/// The other analytic shapes, each in a space of its own of about unit size, its axis of revolution
+/// along z, phi from x towards y:
+///   quadric  x^2 + y^2 = |g(z)|^2 + e z + s z^2 with g = (a + b z, c + d z): what is left where a
+///            line or parabola goes round. Sphere: a = 1, s = -1. Cylinder: a = 1. Cone: a, b.
+///            Paraboloid: a = e = 1. Hyperboloid: a, b, c, d, the line that goes round, phi counted
+///            from it. z in [z_min, z_max]
+///   disk     z = 0, x^2 + y^2 in [a, 1]
+///   torus    major radius a, minor radius b, a >= b > 0, a + b = 1; theta, the angle in the tube,
+///            0 outermost and growing towards +z, from the angle with cosine c and sine d on by the
+///            angle with cosine e and sine s
+enum class ShapeKind : uint32_t { kQuadric, kDisk, kTorus, kCount };
+inline constexpr uint32_t kShapeKinds = uint32_t(ShapeKind::kCount);
+
+/// An analytic shape and where it is. Rays go by o: p = o * (x - org), exactly as stored; w is the
+/// inverse of o, rounded.
+///
+/// Angles end where the point (cos, sin) of their end says: with a sine below 0 (also of a whole
+/// turn, which has a tiny one) the range is more than a half turn.
+template <template <class> class Of>
+struct ShapeRow {
+  Of<float> o_xx, o_xy, o_xz, o_yx, o_yy, o_yz, o_zx, o_zy, o_zz;
+  Of<float> org_x, org_y, org_z;  ///< scene space [m]
+  Of<float> radius;               ///< of a sphere about org that holds the shape [m]
+  Of<float> a, b, c, d, e, s;     ///< see ShapeKind
+  Of<float> z_min, z_max;         ///< beyond the surface where it closes by itself
+  Of<float> phi_cos, phi_sin;     ///< end of phi
+  Of<uint32_t> kind;              ///< ShapeKind
+  Of<uint32_t> occludes;          ///< as in SphereRow
+  Of<float> w_xx, w_xy, w_xz, w_yx, w_yy, w_yz, w_zx, w_zy, w_zz;
+  Of<float> extent;                     ///< largest |coordinate| of the shape, scene space [m]
+  Of<float> inner_x, inner_y, inner_z;  ///< scale of rounding along each axis of its own space
+  Of<float> u_scale;                    ///< u = phi in turns * u_scale
+  Of<float> v_scale, v_offset;          ///< v = what grows along the profile * v_scale + v_offset
+  Of<float> z_first, z_last;            ///< quadric: ends of the surface
+  Of<float> stretch;                    ///< cube root of |determinant of w|
+  Of<uint32_t> inward;                  ///< 1: the normal points to the other side than usual
+  Of<uint32_t> parameter, light;
+  YAT_FIELDS(o_xx, o_xy, o_xz, o_yx, o_yy, o_yz, o_zx, o_zy, o_zz, org_x, org_y, org_z, radius, a,
+             b, c, d, e, s, z_min, z_max, phi_cos, phi_sin, kind, occludes, w_xx, w_xy, w_xz, w_yx,
+             w_yy, w_yz, w_zx, w_zy, w_zz, extent, inner_x, inner_y, inner_z, u_scale, v_scale,
+             v_offset, z_first, z_last, stretch, inward, parameter, light)
+};
+static_assert(all_fields_listed<ShapeRow>);
 
 /// Up to eight boxes and what is in them. 256 bytes, aligned to 64.
 /// child[i]: bit 31 set = leaf: low 31 bits are (first block << 5 | blocks - 1), at most 32 blocks;
@@ -90,12 +140,28 @@ struct TreeView {
   float min[3] = {0, 0, 0}, max[3] = {0, 0, 0};  ///< bounds of all triangles
 };
 
+/// Rows [first, end) of a table.
+struct RowRange {
+  uint32_t first = 0, end = 0;
+};
+
+/// The analytic shapes but whole spheres and planes, or those of them that are veils.
+struct ShapesView {
+  Rows<ShapeRow> rows;          ///< all of the scene, sorted by kind
+  RowRange kinds[kShapeKinds];  ///< rows of each kind
+  /// Over these shapes and spheres alike: a leaf holds one in its low 31 bits, a row of
+  /// GeometryView::spheres, or the number of all spheres + a row of `rows`. node_count = 0: there
+  /// are so few that each is tried.
+  TreeView tree;
+};
+
 struct GeometryView {
   TreeView tree;
   Rows<TriangleRow> triangles;
   Rows<TriangleVertexRow> triangle_vertices;  ///< count = triangles, or 0 if no mesh has them
   Rows<SphereRow> spheres;
   Rows<PlaneRow> planes;
+  ShapesView shapes;
   const uint32_t* prim_bin = nullptr;  ///< per primitive row: its bin (Plan)
   bool all_occlude = true;             ///< no see-through triangle: shadow rays need no mask
 };
@@ -106,6 +172,7 @@ struct VeilView {
   Rows<SphereRow> spheres;
   Rows<PlaneRow> planes;
   uint32_t first_sphere = 0, first_plane = 0;  ///< primitive rows of the first of each
+  ShapesView shapes;
 };
 
 // ---- Instances -------------------------------------------------------------------------------
@@ -170,6 +237,7 @@ enum class LightKind : uint32_t {
   kSpot,
   kPointMap,
   kProjection,
+  kShape,
   kConstant,
   kImage,
   kSun,
@@ -177,17 +245,11 @@ enum class LightKind : uint32_t {
   kCount
 };
 inline constexpr uint32_t kFirstEnvironment = uint32_t(LightKind::kConstant);
-inline constexpr const char* kLightKindNames[] = {"triangle",
-                                                  "sphere",
-                                                  "point",
-                                                  "distant",
-                                                  "spot",
-                                                  "mapped point",
-                                                  "projection",
-                                                  "constant environment",
-                                                  "image environment",
-                                                  "sun",
-                                                  "sky"};
+inline constexpr const char* kLightKindNames[] = {
+    "triangle",          "sphere", "point",
+    "distant",           "spot",   "mapped point",
+    "projection",        "shape",  "constant environment",
+    "image environment", "sun",    "sky"};
 static_assert(sizeof(kLightKindNames) / sizeof(*kLightKindNames) == uint32_t(LightKind::kCount));
 
 /// One light: one emissive triangle, a sphere, a point, a direction, an environment. Fields by
@@ -209,6 +271,7 @@ static_assert(sizeof(kLightKindNames) / sizeof(*kLightKindNames) == uint32_t(Lig
 ///   the mean intensity projection  a = position, c_x = map row (as bits), b_x, b_y = half of the
 ///   window at distance 1,
 ///               b_z = flux of a white picture of intensity scale 1, extra = 1 / LuxRender's area
+///   shape       a_x = its row of ShapesView::rows, as bits; extra = area [m2]
 ///   constant    radiance alone
 ///   image       c_x = map row (as bits), extra = mean luminance, radiance included
 ///   sun         a = unit direction towards its middle, extra = 1 - cos(its angular radius)

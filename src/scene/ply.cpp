@@ -186,6 +186,7 @@ void BodyReader::read_vertices(const PlyElement& element, PlyMesh& mesh) {
   want({"nx", "ny", "nz"}, mesh.normals);
   want({"s", "t"}, mesh.uvs) || want({"u", "v"}, mesh.uvs) ||
       want({"texture_u", "texture_v"}, mesh.uvs) || want({"u0", "v0"}, mesh.uvs);
+  mesh.colours = element.find("red") >= 0;
   const size_t n = size_t(element.count);
 
   std::vector<size_t> offsets;

@@ -35,6 +35,7 @@ struct PlyMesh {
   uint64_t quads = 0;                 ///< of these, split along the shorter diagonal
   uint64_t polygons = 0;              ///< of these with 5 or more corners, split into fans
   uint64_t skipped = 0;               ///< of these with fewer than 3 corners, left out
+  bool colours = false;               ///< the file has colours of vertices, which are not read
   std::vector<std::string> warnings;  ///< what to tell the user, each "mesh.ply: what"
 
   uint32_t vertices() const { return uint32_t(positions.size() / 3); }

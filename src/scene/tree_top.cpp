@@ -203,7 +203,7 @@ struct Collapse {
 
 }  // namespace
 
-Tree build_top_tree(std::span<const TopBox> boxes) {
+Tree build_top_tree(std::span<const TopBox> boxes, std::span<const uint32_t> items_of) {
   Tree out;
   if (boxes.empty()) return out;
   Builder builder{boxes, {}};
@@ -220,6 +220,9 @@ Tree build_top_tree(std::span<const TopBox> boxes) {
     extent = std::max({extent, std::abs(all.min[a]), std::abs(all.max[a])});
   }
   // The box test's rounding, for origins within kFarExtents: see tree_collapse.cpp.
+  if (!items_of.empty())
+    for (BinaryNode& node : builder.nodes)
+      if (node.leaf()) node.item = items_of[node.item];
   Collapse work{builder.nodes, extent * 0x1p-17, out, {}};
   work.add_node(0, 0);
   out.nodes = AlignedArray<TreeNode>(std::span<const TreeNode>(work.nodes));

@@ -17,7 +17,7 @@ struct TopBox {
 /// and the box's number. Nodes are as the triangle tree's, boxes rounded outwards and grown by
 /// the rounding of the box test; there are no blocks. Object splits by the SAH over centres (Wald
 /// 2007, binned), halves by index where that does not separate. The bytes depend on the boxes
-/// alone. At most 2^31 - 1 boxes.
-Tree build_top_tree(std::span<const TopBox> boxes);
+/// alone. At most 2^31 - 1 boxes. Where `items` are given, a leaf holds its box's item instead.
+Tree build_top_tree(std::span<const TopBox> boxes, std::span<const uint32_t> items = {});
 
 }  // namespace yat

@@ -65,6 +65,12 @@ struct Batch {
     if (plan.instances)
       scratch_bytes = std::max(
           scratch_bytes, plan.kernels->instance_scratch_bytes(scene.instances.view(), batch_rows));
+    if (plan.shape_tree)
+      scratch_bytes = std::max(
+          scratch_bytes, plan.kernels->shape_scratch_bytes(scene.shape_tree.view, batch_rows));
+    if (plan.veil_shape_tree)
+      scratch_bytes = std::max(
+          scratch_bytes, plan.kernels->shape_scratch_bytes(scene.veil_shape_tree.view, batch_rows));
     if (scratch_bytes) {
       scratch_memory.resize(scratch_bytes);
       scratch = {scratch_memory.data(), scratch_memory.size()};

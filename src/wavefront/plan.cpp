@@ -16,8 +16,8 @@ namespace yat {
 
 namespace {
 
-constexpr std::string_view kGeometryNames[] = {"triangle_flat", "triangle_vertex", "sphere",
-                                               "plane"};
+constexpr std::string_view kGeometryNames[] = {
+    "triangle_flat", "triangle_vertex", "sphere", "plane", "quadric", "disk", "torus"};
 constexpr std::string_view kLightNames[] = {"triangle", "sphere", "point",
                                             "distant",  "mixed",  "any"};
 constexpr std::string_view kSamplerNames[] = {"independent", "sobol",         "regular", "jittered",
@@ -28,6 +28,24 @@ static_assert(std::size(kCameraNames) == uint32_t(CameraKind::kCount));
 static_assert(std::size(kGeometryNames) == uint32_t(GeometryKind::kCount));
 static_assert(std::size(kLightNames) == kLightKernels);
 static_assert(std::size(kSamplerNames) == uint32_t(SamplerKind::kCount));
+
+std::string_view shape_name(uint32_t kind) {
+  return kGeometryNames[uint32_t(GeometryKind::kQuadric) + kind];
+}
+
+uint32_t veil_shapes(const Scene& scene) {
+  uint32_t sum = 0;
+  for (const RowRange& rows : scene.veil_shape_rows) sum += rows.end - rows.first;
+  return sum;
+}
+
+/// ", shadow_..." for the kernels of analytic shapes that run.
+std::string shadow_shape_names(const Plan& plan) {
+  std::string text = plan.shape_tree ? ", shadow_shape_tree" : "";
+  for (uint32_t kind = 0; kind < kShapeKinds; ++kind)
+    if (plan.shapes[kind]) text += fmt::format(", shadow_shapes ({})", shape_name(kind));
+  return text;
+}
 
 /// A table without a kernel that the plan wants is a mistake in the program, not in the scene.
 void need(bool present, const KernelTable& kernels, std::string_view kernel) {
@@ -53,6 +71,12 @@ void need_kernels(const Plan& plan) {
   }
   if (plan.spheres) need(k.intersect_spheres && k.shadow_spheres, k, "intersect_spheres");
   if (plan.planes) need(k.intersect_planes && k.shadow_planes, k, "intersect_planes");
+  for (uint32_t kind = 0; kind < kShapeKinds; ++kind)
+    if (plan.shapes[kind])
+      need(k.intersect_shapes[kind] && k.shadow_shapes[kind], k, "intersect_shapes");
+  if (plan.shape_tree || plan.veil_shape_tree)
+    need(k.shape_scratch_bytes && k.intersect_shape_tree && k.shadow_shape_tree, k,
+         "intersect_shape_tree");
   if (plan.instances) {
     need(k.instance_scratch_bytes && k.intersect_instances, k, "intersect_instances");
     need(k.classify_instance_hits, k, "classify_instance_hits");
@@ -154,7 +178,11 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
     plan.set_rows = 1;
   }
   plan.triangles = scene.triangles.size() > 0;
-  plan.spheres = scene.spheres.size() > 0;
+  plan.shape_tree = scene.shape_tree.view.node_count > 0;
+  plan.spheres = scene.spheres.size() > 0 && !plan.shape_tree;
+  for (uint32_t kind = 0; kind < kShapeKinds; ++kind)
+    plan.shapes[kind] =
+        scene.shape_rows[kind].end > scene.shape_rows[kind].first && !plan.shape_tree;
   plan.planes = scene.planes.size() > 0;
   plan.shadow_mask = !scene.all_occlude;
   plan.instances = !scene.instances.empty();
@@ -182,6 +210,7 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
         plan_material(scene, {bin.bin.material, bin.bin.split, bin.bin.program}, roulette, 1, plan);
     plan.veils = plan.veils || (plan.lights && bin.bin.passing == Passing::kVeil);
   }
+  plan.veil_shape_tree = plan.veils && scene.veil_shape_tree.view.node_count > 0;
   need_kernels(plan);
   return plan;
 }
@@ -227,6 +256,15 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
     line(Stage::kIntersect, fmt::format("intersect_spheres: {} spheres", scene.spheres.size()));
   if (plan.planes)
     line(Stage::kIntersect, fmt::format("intersect_planes: {} planes", scene.planes.size()));
+  for (uint32_t kind = 0; kind < kShapeKinds; ++kind)
+    if (plan.shapes[kind])
+      line(Stage::kIntersect,
+           fmt::format("intersect_shapes ({}): {}", shape_name(kind),
+                       scene.shape_rows[kind].end - scene.shape_rows[kind].first));
+  if (plan.shape_tree)
+    line(Stage::kIntersect,
+         fmt::format("intersect_shape_tree: {} spheres, {} other shapes, {} nodes",
+                     scene.spheres.size(), scene.shapes.size(), scene.shape_tree.view.node_count));
   if (plan.instances)
     line(Stage::kIntersect,
          fmt::format("intersect_instances: {} instances, {} nodes above them, {} objects of {} "
@@ -252,19 +290,23 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   }
   if (plan.lights) {
     line(Stage::kIntersectShadow,
-         fmt::format("{}{}{}{}",
+         fmt::format("{}{}{}{}{}",
                      plan.triangles
                          ? plan.shadow_mask ? "intersect_shadow (masked)" : "intersect_shadow"
                          : "no triangles",
                      plan.spheres ? ", shadow_spheres" : "", plan.planes ? ", shadow_planes" : "",
+                     shadow_shape_names(plan),
                      !plan.instances      ? ""
                      : plan.instance_mask ? ", shadow_instances (masked)"
                                           : ", shadow_instances"));
     if (plan.veils)
       line(Stage::kIntersectShadow,
-           fmt::format("veils: {} nodes, {} spheres, {} planes", scene.veils.view.node_count,
-                       scene.spheres.size() - scene.first_veil_sphere,
-                       scene.planes.size() - scene.first_veil_plane));
+           fmt::format("veils: {} nodes, {} spheres, {} planes, {} other shapes{}",
+                       scene.veils.view.node_count, scene.spheres.size() - scene.first_veil_sphere,
+                       scene.planes.size() - scene.first_veil_plane, veil_shapes(scene),
+                       plan.veil_shape_tree
+                           ? fmt::format(" ({} nodes)", scene.veil_shape_tree.view.node_count)
+                           : std::string()));
     line(Stage::kAccumulate, fmt::format("add_unoccluded: {} lights", scene.lights.size()));
   }
 
@@ -282,8 +324,9 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
     return false;
   };
   skipped(plan.triangles, "intersect_closest", "no triangle in the scene");
-  skipped(plan.spheres, "intersect_spheres", "no sphere in the scene");
+  if (!plan.shape_tree) skipped(plan.spheres, "intersect_spheres", "no sphere in the scene");
   skipped(plan.planes, "intersect_planes", "no plane in the scene");
+  skipped(scene.shapes.size() > 0, "intersect_shapes", "no other analytic shape in the scene");
   skipped(plan.instances, "intersect_instances", "no object is stored once for its instances");
   skipped(has_lens(plan.camera), "draw lens", "the camera has no lens");
   skipped(plan.veils, "veils", "no surface lets a part of the light pass");

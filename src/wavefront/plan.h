@@ -48,11 +48,14 @@ struct Plan {
   CameraKind camera = CameraKind::kPinhole;
   bool tangents = false;                                    ///< some bin needs dp/du
   bool triangles = false, spheres = false, planes = false;  ///< which intersect stages run
-  bool instances = false;      ///< shared objects: a second level of trees, and its kernels
-  bool instance_mask = false;  ///< as shadow_mask, of shared objects
-  bool shadow_mask = false;    ///< some triangle is see-through: the masked any-hit kernel
-  bool veils = false;          ///< some surface lets a part of the light pass: shadow rays go on
-  uint32_t light_kernel = 0;   ///< index into KernelTable::sample_lights
+  bool shapes[kShapeKinds] = {};  ///< other analytic shapes, tried one after the other
+  bool shape_tree = false;        ///< spheres and shapes have a tree: it stands for both stages
+  bool veil_shape_tree = false;   ///< so have those that are veils
+  bool instances = false;         ///< shared objects: a second level of trees, and its kernels
+  bool instance_mask = false;     ///< as shadow_mask, of shared objects
+  bool shadow_mask = false;       ///< some triangle is see-through: the masked any-hit kernel
+  bool veils = false;             ///< some surface lets a part of the light pass: shadow rays go on
+  uint32_t light_kernel = 0;      ///< index into KernelTable::sample_lights
   bool lights = false;
   bool environment = false;  ///< lights that rays find which leave the scene
 };

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "wavefront/reference_parts.h"
+#include "wavefront/reference_shapes.h"
 
 namespace yat::reference {
 
@@ -159,10 +159,17 @@ Point sphere_point(const SphereRow<Value>& row, const RaySegment& ray, double t)
   point.t = t;
   point.position = center + double(row.radius) * outward;
   point.ng = point.ns = row.inward ? -outward : outward;
-  point.along = Vec(-point.ng.y, point.ng.x, 0);
   point.offset = kRounding * (largest(center) + double(row.radius));
   point.parameter = row.parameter;
   point.light = row.light;
+  const Vec x(row.x_x, row.x_y, row.x_z), z(row.z_x, row.z_y, row.z_z);
+  const Vec y = double(row.hand) * glm::cross(z, x);
+  set_texture_axes(point, double(row.radius), [&](const Vec& at) {
+    const Vec out = at - center;
+    const double u = std::atan2(glm::dot(out, y), glm::dot(out, x)) / (2 * std::numbers::pi);
+    const double from_north = std::acos(glm::dot(glm::normalize(out), z)) / std::numbers::pi;
+    return glm::dvec2(u < 0 ? u + 1 : u, 1 - from_north);
+  });
   return point;
 }
 
@@ -174,6 +181,10 @@ Point plane_point(const PlaneRow<Value>& row, const RaySegment& ray, double t) {
   point.offset = kRounding * (largest(point.position) + std::fabs(double(row.distance)));
   point.parameter = row.parameter;
   point.light = kNone;
+  set_texture_axes(point, 1, [&row](const Vec& at) {
+    return glm::dvec2(glm::dot(Vec(row.u_x, row.u_y, row.u_z), at) + double(row.u_0),
+                      glm::dot(Vec(row.v_x, row.v_y, row.v_z), at) + double(row.v_0));
+  });
   return point;
 }
 
@@ -207,6 +218,15 @@ std::optional<Point> nearest(const Scene& scene, const RaySegment& ray) {
     best->bin = scene.prim_bin[prim];
     best->prim = prim;
   }
+  for (uint32_t i = 0; i < scene.shapes.size(); ++i, ++prim) {
+    const ShapeRow<Value> row = scene.shapes.row(i);
+    const double t = meet(row, ray.origin, ray.direction);
+    if (!(t <= t_max)) continue;
+    t_max = t;
+    best = shape_point(row, ray, t);
+    best->bin = scene.prim_bin[prim];
+    best->prim = prim;
+  }
   for (uint32_t i = 0; i < scene.instances.rows.size(); ++i) {
     const PlacedObject placed(scene, i);
     for (uint32_t t = placed.first; t < placed.end; ++t) {
@@ -234,6 +254,8 @@ bool occluded(const Scene& scene, const Vec& from, const Vec& to) {
     if (between(meet(scene.spheres.row(i), from, way)) && stops(prim)) return true;
   for (uint32_t i = 0; i < scene.planes.size(); ++i, ++prim)
     if (between(meet(scene.planes.row(i), from, way)) && stops(prim)) return true;
+  for (uint32_t i = 0; i < scene.shapes.size(); ++i, ++prim)
+    if (between(meet(scene.shapes.row(i), from, way)) && stops(prim)) return true;
   for (uint32_t i = 0; i < scene.instances.rows.size(); ++i) {
     const PlacedObject placed(scene, i);
     for (uint32_t t = placed.first; t < placed.end; ++t) {

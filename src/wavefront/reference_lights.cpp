@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "scene/light_maps.h"
-#include "wavefront/reference_parts.h"
+#include "wavefront/reference_shapes.h"
 
 namespace yat::reference {
 
@@ -70,6 +70,25 @@ void pick_sphere(const LightRow<Value>& row, const Vec& receiver, double u, doub
   }
   pick.to = center + outward * (radius + (inwards ? -1 : 1) * 1e-9 * radius);
   pick.pdf = 1 / inverse_pdf;
+}
+
+ShapeRow<Value> shape_of(const Scene& scene, const LightRow<Value>& row) {
+  return scene.shapes.row(std::bit_cast<uint32_t>(row.a_x));
+}
+
+/// An analytic shape, by area in its own way.
+void pick_shape(const ShapeRow<Value>& shape, const Vec& receiver, double u, double v,
+                LightPoint& pick, double& inverse_pdf) {
+  const ShapeSamplePoint at = sample_shape(shape, u, v);
+  const Vec way = at.position - receiver;
+  const double squared = glm::dot(way, way);
+  pick.wi = glm::normalize(way);
+  pick.to = at.position + at.offset * at.normal;
+  const double cos = -glm::dot(at.normal, pick.wi);
+  if (cos > 0 && squared > 0 && at.inverse_density > 0) {
+    inverse_pdf = at.inverse_density * cos / squared;
+    pick.pdf = 1 / inverse_pdf;
+  }
 }
 
 // ---- Lights with a map -------------------------------------------------------------------------
@@ -221,6 +240,9 @@ LightPoint sample_light(const Scene& scene, const Vec& receiver, float choice, d
       pick.to = receiver + kFar * (1 + glm::length(receiver)) * pick.wi;
       break;
     }
+    case LightKind::kShape:
+      pick_shape(shape_of(scene, row), receiver, u, v, pick, inverse_pdf);
+      break;
     case LightKind::kConstant:
     case LightKind::kImage:
     case LightKind::kSun:
@@ -243,6 +265,8 @@ double light_pdf(const Scene& scene, const Vec& receiver, const Point& at, doubl
   const Vec way = at.position - receiver;
   const double squared = glm::dot(way, way);
   double area = double(row.extra);
+  if (LightKind(row.kind) == LightKind::kShape)
+    area = inverse_density(shape_of(scene, row), at.position);
   if (LightKind(row.kind) == LightKind::kSphere) {
     const double radius = double(row.extra);
     const Vec to_center = axis_a(row) - receiver;

@@ -102,9 +102,19 @@ void Worker::intersect() {
   const uint32_t first_sphere = view_.geometry.triangles.count;
   if (plan_.spheres)
     kernels_.intersect_spheres(view_.geometry.spheres, first_sphere, rays, hits, count_);
+  const uint32_t first_plane = first_sphere + view_.geometry.spheres.count;
   if (plan_.planes)
-    kernels_.intersect_planes(view_.geometry.planes, first_sphere + view_.geometry.spheres.count,
-                              rays, hits, count_);
+    kernels_.intersect_planes(view_.geometry.planes, first_plane, rays, hits, count_);
+  const uint32_t first_shape = first_plane + view_.geometry.planes.count;
+  for (uint32_t kind = 0; kind < kShapeKinds; ++kind)
+    if (plan_.shapes[kind])
+      kernels_.intersect_shapes[kind](view_.geometry.shapes, first_shape, rays, hits, count_);
+  if (plan_.shape_tree) {
+    const LaneCount c = kernels_.intersect_shape_tree(view_.geometry, view_.geometry.shapes.tree,
+                                                      rays, hits, count_, batch_.scratch);
+    lanes.rows += c.rows;
+    lanes.steps += c.steps;
+  }
   if (plan_.instances) {
     const LaneCount inside = kernels_.intersect_instances(
         view_.instances, rays, hits, batch_.instance.data(), count_, batch_.scratch);
@@ -353,6 +363,14 @@ void Worker::shadow() {
     std::fill_n(occluded, n, 0u);
   if (plan_.spheres) kernels_.shadow_spheres(view_.geometry.spheres, rays, occluded, n);
   if (plan_.planes) kernels_.shadow_planes(view_.geometry.planes, rays, occluded, n);
+  for (uint32_t kind = 0; kind < kShapeKinds; ++kind)
+    if (plan_.shapes[kind]) kernels_.shadow_shapes[kind](view_.geometry.shapes, rays, occluded, n);
+  if (plan_.shape_tree) {
+    const LaneCount c =
+        kernels_.shadow_shape_tree(view_.geometry, rays, occluded, n, batch_.scratch);
+    lanes.rows += c.rows;
+    lanes.steps += c.steps;
+  }
   if (plan_.instances) {
     const LaneCount inside = kernels_.shadow_instances[plan_.instance_mask](
         view_.instances, rays, occluded, n, batch_.scratch);

@@ -51,8 +51,18 @@ void Worker::intersect_veils(uint32_t side, uint32_t n) {
     std::copy_n(rays.t_max, n, hits.t);
     std::fill_n(hits.prim, n, kNone);
   }
-  if (view_.veils.spheres.count)
-    kernels_.intersect_spheres(view_.veils.spheres, view_.veils.first_sphere, rays, hits, n);
+  const ShapesView& shapes = view_.veils.shapes;
+  if (plan_.veil_shape_tree) {
+    kernels_.intersect_shape_tree(view_.geometry, shapes.tree, rays, hits, n, batch_.scratch);
+  } else {
+    if (view_.veils.spheres.count)
+      kernels_.intersect_spheres(view_.veils.spheres, view_.veils.first_sphere, rays, hits, n);
+    const uint32_t first =
+        view_.geometry.triangles.count + view_.geometry.spheres.count + view_.geometry.planes.count;
+    for (uint32_t kind = 0; kind < kShapeKinds; ++kind)
+      if (shapes.kinds[kind].first < shapes.kinds[kind].end)
+        kernels_.intersect_shapes[kind](shapes, first, rays, hits, n);
+  }
   if (view_.veils.planes.count)
     kernels_.intersect_planes(view_.veils.planes, view_.veils.first_plane, rays, hits, n);
 }
