@@ -18,7 +18,11 @@ const KernelTable* kernel_table() {
     fill_surface(t);
     fill_light(t);
     fill_environment(t);
-    fill_shade(t);
+    fill_diffuse_materials(t);
+    fill_coated_materials(t);
+    fill_layered_materials(t);
+    fill_metal_materials(t);
+    fill_glass_materials(t);
     fill_split(t);
     fill_textures(t);
     fill_accumulate(t);

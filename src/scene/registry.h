@@ -2,8 +2,9 @@
 // One list each of what yat knows. Everything that must happen "for every material" (parsing,
 // parameter tables, sorting bins, shade kernels, tests, bench rows) is generated from these lists.
 //
-// A material is a header src/kernels/materials/NAME.h and one line here. The header declares, for
-// an entry YAT_MATERIAL(oren_nayar, OrenNayar):
+// A material is a header src/kernels/materials/NAME.h and one line here, in the list of its family:
+// a family's kernels are one translation unit, src/kernels/shade_FAMILY.cpp (composite: split.cpp).
+// The header declares, for an entry YAT_MATERIAL(oren_nayar, OrenNayar):
 //   template <template <class> class Of> struct OrenNayarParameters { ... YAT_FIELDS(...) };
 //   inline constexpr MaterialTraits kOrenNayarTraits{...};
 // and, only where YAT_ISA is defined, in namespace yat::YAT_ISA,
@@ -22,33 +23,46 @@
 #include "soa/fields.h"
 
 // clang-format off
-#define YAT_MATERIALS(YAT_MATERIAL) \
+#define YAT_DIFFUSE_MATERIALS(YAT_MATERIAL) \
   YAT_MATERIAL(matte,             Matte)            \
   YAT_MATERIAL(oren_nayar,        OrenNayar)        \
   YAT_MATERIAL(matte_translucent, MatteTranslucent) \
   YAT_MATERIAL(velvet,            Velvet)           \
-  YAT_MATERIAL(scatter,           Scatter)          \
+  YAT_MATERIAL(scatter,           Scatter)
+#define YAT_COATED_MATERIALS(YAT_MATERIAL) \
   YAT_MATERIAL(glossy,            Glossy)           \
   YAT_MATERIAL(glossy_single,     GlossySingle)     \
-  YAT_MATERIAL(glossy_lossy,      GlossyLossy)      \
+  YAT_MATERIAL(glossy_lossy,      GlossyLossy)
+#define YAT_LAYERED_MATERIALS(YAT_MATERIAL) \
   YAT_MATERIAL(glossy_translucent, GlossyTranslucent) \
-  YAT_MATERIAL(car_paint,         CarPaint)         \
+  YAT_MATERIAL(car_paint,         CarPaint)
+#define YAT_METAL_MATERIALS(YAT_MATERIAL) \
   YAT_MATERIAL(metal,             Metal)            \
   YAT_MATERIAL(metal_index,       MetalIndex)       \
   YAT_MATERIAL(metal_colour,      MetalColour)      \
   YAT_MATERIAL(shiny_metal,       ShinyMetal)       \
   YAT_MATERIAL(cook_torrance,     CookTorrance)     \
-  YAT_MATERIAL(cook_torrance_single, CookTorranceSingle) \
+  YAT_MATERIAL(cook_torrance_single, CookTorranceSingle)
+#define YAT_GLASS_MATERIALS(YAT_MATERIAL) \
   YAT_MATERIAL(rough_glass,       RoughGlass)       \
   YAT_MATERIAL(mirror,            Mirror)           \
   YAT_MATERIAL(mirror_film,       MirrorFilm)       \
   YAT_MATERIAL(glass,             Glass)            \
   YAT_MATERIAL(glass_film,        GlassFilm)        \
   YAT_MATERIAL(absorbing_glass,   AbsorbingGlass)   \
-  YAT_MATERIAL(architectural_glass, ArchitecturalGlass) \
+  YAT_MATERIAL(architectural_glass, ArchitecturalGlass)
+#define YAT_COMPOSITE_MATERIALS(YAT_MATERIAL) \
   YAT_MATERIAL(mix,               Mix)              \
   YAT_MATERIAL(double_side,       DoubleSide)       \
   YAT_MATERIAL(null,              Null)
+
+#define YAT_MATERIALS(YAT_MATERIAL) \
+  YAT_DIFFUSE_MATERIALS(YAT_MATERIAL) \
+  YAT_COATED_MATERIALS(YAT_MATERIAL) \
+  YAT_LAYERED_MATERIALS(YAT_MATERIAL) \
+  YAT_METAL_MATERIALS(YAT_MATERIAL) \
+  YAT_GLASS_MATERIALS(YAT_MATERIAL) \
+  YAT_COMPOSITE_MATERIALS(YAT_MATERIAL)
 
 #define YAT_TEXTURES(YAT_TEXTURE) \
   YAT_TEXTURE(constant,      Constant) \
