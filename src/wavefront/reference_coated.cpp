@@ -35,7 +35,7 @@ double chance_of_coat(const Vec& coat, const Vec& base) {
 template <class Record>
 Bounce weighted(const Record& p, const LocalView& view, const Vec& wi) {
   const double density = pdf(p, view, wi);
-  if (!(density > 1e-30)) return {wi, Vec(0.0), 0};
+  if (!(density > 0)) return {wi, Vec(0.0), 0};
   return {wi, evaluate(p, view, wi) * (std::fabs(wi.z) / density), density};
 }
 
@@ -73,7 +73,7 @@ double chance(const GlossyLossyParameters<Value>& p, const LocalView& view) {
 
 template <class Record>
 double pdf_of(const Record& p, const LocalView& view, const Vec& wi, float least) {
-  if (wi.z <= 0) return 0;
+  if (wi.z <= 0 || view.wo.z <= 0) return 0;
   const Coat coat(p, least);
   const double c = chance(p, view);
   return c * lobe_pdf(coat.u, coat.v, view.wo, wi) + (1 - c) * wi.z / kPi;
@@ -90,7 +90,7 @@ Bounce sample_of(const Record& p, const LocalView& view, double lobe, double u, 
 }  // namespace
 
 Vec evaluate(const GlossyParameters<Value>& p, const LocalView& view, const Vec& wi) {
-  if (wi.z <= 0) return Vec(0.0);
+  if (wi.z <= 0 || view.wo.z <= 0) return Vec(0.0);
   const Coat coat(p);
   const Vec base = coat.kd / kPi * oren_nayar(double(p.sigma), view.wo, wi);
   if (!view.outside) return base;
@@ -108,7 +108,7 @@ Bounce sample(const GlossyParameters<Value>& p, const LocalView& view, double lo
 }
 
 Vec evaluate(const GlossySingleParameters<Value>& p, const LocalView& view, const Vec& wi) {
-  if (wi.z <= 0) return Vec(0.0);
+  if (wi.z <= 0 || view.wo.z <= 0) return Vec(0.0);
   const Coat coat(p, .006f);
   const Vec s = schlick(coat.r0, glm::dot(wi, glm::normalize(view.wo + wi)));
   const Vec base = coat.absorption(1 / wi.z + 1 / view.wo.z) * (1. - s) * coat.kd / kPi;
@@ -125,7 +125,7 @@ Bounce sample(const GlossySingleParameters<Value>& p, const LocalView& view, dou
 }
 
 Vec evaluate(const GlossyLossyParameters<Value>& p, const LocalView& view, const Vec& wi) {
-  if (wi.z <= 0) return Vec(0.0);
+  if (wi.z <= 0 || view.wo.z <= 0) return Vec(0.0);
   const Coat coat(p);
   const Vec h = glm::normalize(view.wo + wi);
   const double cos_h = glm::dot(wi, h);
@@ -185,7 +185,7 @@ struct Sheet {
 }  // namespace
 
 Vec evaluate(const GlossyTranslucentParameters<Value>& p, const LocalView& view, const Vec& wi) {
-  if (wi.z == 0) return Vec(0.0);
+  if (wi.z == 0 || view.wo.z <= 0) return Vec(0.0);
   const Sheet sheet(p, view);
   const Vec up(wi.x, wi.y, std::fabs(wi.z));
   const double cos_h = glm::dot(view.wo, glm::normalize(view.wo + up));
@@ -199,6 +199,7 @@ Vec evaluate(const GlossyTranslucentParameters<Value>& p, const LocalView& view,
          absorbed(here.ka, here.depth, 1 / view.wo.z + 1 / wi.z) * (1. - s1) * sheet.kd / kPi;
 }
 double pdf(const GlossyTranslucentParameters<Value>& p, const LocalView& view, const Vec& wi) {
+  if (view.wo.z <= 0) return 0;
   const Sheet sheet(p, view);
   if (wi.z <= 0) return sheet.through * -wi.z / kPi;
   return sheet.coat * lobe_pdf(sheet.here.u, sheet.here.v, view.wo, wi) +
@@ -243,7 +244,7 @@ struct Paint {
 }  // namespace
 
 Vec evaluate(const CarPaintParameters<Value>& p, const LocalView& view, const Vec& wi) {
-  if (wi.z <= 0) return Vec(0.0);
+  if (wi.z <= 0 || view.wo.z <= 0) return Vec(0.0);
   const Paint paint(p, view);
   const double cos_h = glm::dot(wi, glm::normalize(view.wo + wi));
   Vec f = absorbed(paint.ka, paint.depth, 1 / wi.z + 1 / view.wo.z) * paint.kd / kPi;
@@ -253,7 +254,7 @@ Vec evaluate(const CarPaintParameters<Value>& p, const LocalView& view, const Ve
   return f;
 }
 double pdf(const CarPaintParameters<Value>& p, const LocalView& view, const Vec& wi) {
-  if (wi.z <= 0) return 0;
+  if (wi.z <= 0 || view.wo.z <= 0) return 0;
   const Paint paint(p, view);
   double density = 0, base = 1;
   for (int k = 0; k < 3; ++k) {

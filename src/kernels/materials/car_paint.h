@@ -33,7 +33,7 @@ inline constexpr MaterialTraits kCarPaintTraits{.name = "car_paint",
 namespace YAT_ISA {
 
 template <class A>
-struct CarPaint {
+struct CarPaint : EvaluateByParts<A, CarPaint<A>, CarPaintParameters<Lanes<A>::template Of>> {
   using Parameters = CarPaintParameters<Lanes<A>::template Of>;
   static constexpr int kLobes = 3;
 
@@ -79,22 +79,15 @@ struct CarPaint {
     for (int k = 0; k < kLobes; ++k) {
       const Float<A> lobe =
           parts.lobe[k].evaluate(wo, wi, h) * fresnel_schlick<A>(parts.r[k], cos_h);
-      f = sum<A>(f, lobe * parts.ks[k]);
+      f = f + lobe * parts.ks[k];
       pdf = pdf + parts.chance[k] * parts.lobe[k].pdf(wo, h);
       base = base - parts.chance[k];
     }
     pdf = pdf + xsimd::max(base, Float<A>(0.f)) * cosine_hemisphere_pdf<A>(wi.z);
-    const Mask<A> above = wi.z > Float<A>(0.f);
+    const Mask<A> above = (wi.z > Float<A>(0.f)) & (wo.z > Float<A>(0.f));
     return {only<A>(above, f), only<A>(above, pdf)};
   }
 
-  static YAT_INLINE Spectrum<A> evaluate(const Parameters& p, const BsdfView<A>& view,
-                                         const Vec3<A>& wi) {
-    return both(p, view, Parts::of(p, view), wi).f;
-  }
-  static YAT_INLINE Float<A> pdf(const Parameters& p, const BsdfView<A>& view, const Vec3<A>& wi) {
-    return both(p, view, Parts::of(p, view), wi).pdf;
-  }
   static YAT_INLINE BsdfSample<A> sample(const Parameters& p, const BsdfView<A>& view,
                                          const Float<A>& u_lobe, const Float<A>& u,
                                          const Float<A>& v) {

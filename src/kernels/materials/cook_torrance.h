@@ -31,23 +31,23 @@ struct CookTorranceParameters {
 };
 static_assert(all_fields_listed<CookTorranceParameters>);
 template <template <class> class Of>
-struct CookTorranceSingleParameters {
-  Of<float> kr_r, kr_g, kr_b;  ///< reflectance head-on, 0..1
-  Of<float> roughness;         ///< root mean square slope m of the facets, 0..1
-  YAT_FIELDS(kr_r, kr_g, kr_b, roughness)
-};
+struct CookTorranceSingleParameters : CookTorranceParameters<Of> {};
 static_assert(all_fields_listed<CookTorranceSingleParameters>);
 
+inline constexpr TexturedField kCookTorranceTextured[] = {
+    textured_colour<CookTorranceParameters>("fresnel", "kr_r"),
+    textured_number<CookTorranceParameters>("uroughness", "roughness", 0, 1)};
 inline constexpr MaterialTraits kCookTorranceTraits{.name = "cook_torrance",
                                                     .delta = false,
                                                     .see_through = false,
                                                     .needs_lobe = true,
-                                                    .needs_direction = true};
-inline constexpr MaterialTraits kCookTorranceSingleTraits{.name = "cook_torrance_single",
-                                                          .delta = false,
-                                                          .see_through = false,
-                                                          .needs_lobe = true,
-                                                          .needs_direction = true};
+                                                    .needs_direction = true,
+                                                    .textured = kCookTorranceTextured};
+inline constexpr MaterialTraits kCookTorranceSingleTraits = [] {
+  MaterialTraits traits = kCookTorranceTraits;
+  traits.name = "cook_torrance_single";
+  return traits;
+}();
 
 /// 1 - E(c) = max(0, c * sum of [i][j] c^i m^j - kCookTorranceMargin), and 1 - E_avg = sum of [j]
 /// m^j, no less than twice the integral of (1 - E(c)) c.

@@ -42,62 +42,28 @@ inline constexpr MaterialTraits kGlossyTraits{.name = "glossy",
 namespace YAT_ISA {
 
 template <class A>
-struct Glossy {
+struct Glossy : CoatedDiffuse<A, Glossy<A>, GlossyParameters<Lanes<A>::template Of>> {
   using Parameters = GlossyParameters<Lanes<A>::template Of>;
+  using Parts = typename CoatedDiffuse<A, Glossy, Parameters>::Parts;
+  static constexpr float kLeastRoughness = 0;
+  static constexpr bool kCoatInside = false;
 
-  /// What does not depend on wi.
-  struct Parts {
-    MicrofacetLobe<A> lobe;
-    Spectrum<A> r0, kd, ka;
-    Float<A> chance;  ///< of the coat
-    static YAT_INLINE Parts of(const Parameters& p, const BsdfView<A>& view) {
-      const Float<A> one(1.f), zero(0.f), cos = view.wo.z;
-      Parts s{MicrofacetLobe<A>::of(p.uroughness, p.vroughness),
-              coat_reflectance<A>({p.ks_r, p.ks_g, p.ks_b}, p.index),
-              {p.kd_r, p.kd_g, p.kd_b},
-              {p.ka_r, p.ka_g, p.ka_b},
-              zero};
-      const Spectrum<A> fresnel = coat_fresnel<A>(s.r0, cos);
-      Spectrum<A> base =
-          coat_absorption<A>(s.ka, p.depth, one + one / cos) * (one_minus<A>(fresnel) * s.kd);
-      // The light between the facets goes everywhere, as the base's does.
-      base = sum<A>(base, p.multibounce * fresnel);
-      s.chance = xsimd::select(view.outside, coat_chance<A>(fresnel, base), zero);
-      return s;
-    }
-  };
-
-  static YAT_INLINE Scattered<A> both(const Parameters& p, const BsdfView<A>& view,
-                                      const Parts& parts, const Vec3<A>& wi) {
-    const Float<A> one(1.f), zero(0.f);
+  static YAT_INLINE Spectrum<A> base_share(const Parameters& p, const Parts& parts, const Vec3<A>&,
+                                           const Spectrum<A>& fresnel, const Spectrum<A>& covered) {
+    // The light between the facets goes everywhere, as the base's does.
+    return covered * (one_minus<A>(fresnel) * parts.kd) + p.multibounce * fresnel;
+  }
+  static YAT_INLINE Spectrum<A> value(const Parameters& p, const BsdfView<A>& view,
+                                      const Parts& parts, const Vec3<A>& wi, const Vec3<A>& h) {
+    const Float<A> one(1.f);
     const Vec3<A>& wo = view.wo;
-    const Vec3<A> h = MicrofacetLobe<A>::half_vector(wo, wi);
     const Spectrum<A> fresnel = coat_fresnel<A>(parts.r0, dot(wi, h));
     const Float<A> coat =
         parts.lobe.evaluate(wo, wi, h) + p.multibounce * between_facets<A>(parts.lobe, wo, wi, 1);
     const Spectrum<A> bare = (Float<A>(kInvPi) * oren_nayar<A>(p.sigma, wo, wi)) * parts.kd;
     const Spectrum<A> covered = coat_absorption<A>(parts.ka, p.depth, one / wo.z + one / wi.z) *
                                 (one_minus<A>(fresnel) * bare);
-    const Mask<A> above = wi.z > zero;
-    return {only<A>(above, select<A>(view.outside, sum<A>(coat * fresnel, covered), bare)),
-            only<A>(above, parts.chance * parts.lobe.pdf(wo, h) +
-                               (one - parts.chance) * cosine_hemisphere_pdf<A>(wi.z))};
-  }
-
-  static YAT_INLINE Spectrum<A> evaluate(const Parameters& p, const BsdfView<A>& view,
-                                         const Vec3<A>& wi) {
-    return both(p, view, Parts::of(p, view), wi).f;
-  }
-  static YAT_INLINE Float<A> pdf(const Parameters& p, const BsdfView<A>& view, const Vec3<A>& wi) {
-    return both(p, view, Parts::of(p, view), wi).pdf;
-  }
-  static YAT_INLINE BsdfSample<A> sample(const Parameters& p, const BsdfView<A>& view,
-                                         const Float<A>& u_lobe, const Float<A>& u,
-                                         const Float<A>& v) {
-    const Parts parts = Parts::of(p, view);
-    return sample_coated<A>(parts.lobe, parts.chance, coat_fresnel<A>(parts.r0, view.wo.z), view.wo,
-                            u_lobe, u, v,
-                            [&](const Vec3<A>& wi) { return both(p, view, parts, wi); });
+    return select<A>(view.outside, coat * fresnel + covered, bare);
   }
 };
 

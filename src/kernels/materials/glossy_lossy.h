@@ -41,62 +41,34 @@ inline constexpr MaterialTraits kGlossyLossyTraits{.name = "glossy_lossy",
 namespace YAT_ISA {
 
 template <class A>
-struct GlossyLossy {
+struct GlossyLossy
+    : CoatedDiffuse<A, GlossyLossy<A>, GlossyLossyParameters<Lanes<A>::template Of>> {
   using Parameters = GlossyLossyParameters<Lanes<A>::template Of>;
+  using Parts = typename CoatedDiffuse<A, GlossyLossy, Parameters>::Parts;
+  static constexpr float kLeastRoughness = 0;
+  static constexpr bool kCoatInside = true;
 
-  /// What does not depend on wi.
-  struct Parts {
-    MicrofacetLobe<A> lobe;
-    Spectrum<A> r0, base, ka;
-    Float<A> chance;  ///< of the coat
-    static YAT_INLINE Parts of(const Parameters& p, const BsdfView<A>& view) {
-      const Float<A> one(1.f), cos = view.wo.z;
-      Parts s{MicrofacetLobe<A>::of(p.uroughness, p.vroughness),
-              coat_reflectance<A>({p.ks_r, p.ks_g, p.ks_b}, p.index),
-              {p.kd_r, p.kd_g, p.kd_b},
-              {p.ka_r, p.ka_g, p.ka_b},
-              one};
-      s.base = (Float<A>(28.f / 23) * rim(cos)) * (one_minus<A>(s.r0) * s.base);
-      s.chance = coat_chance<A>(coat_fresnel<A>(s.r0, cos),
-                                coat_absorption<A>(s.ka, p.depth, one + one / cos) * s.base);
-      return s;
-    }
-  };
+  /// Reflectance of the base but for what depends on wi: 28/23 Kd (1 - R0) (1 - (1 - cos_o/2)^5).
+  static YAT_INLINE Spectrum<A> base(const Parts& parts, const Vec3<A>& wo) {
+    return (Float<A>(28.f / 23) * rim(wo.z)) * (one_minus<A>(parts.r0) * parts.kd);
+  }
   /// 1 - (1 - cos/2)^5.
   static YAT_INLINE Float<A> rim(const Float<A>& cos) {
     return Float<A>(1.f) - fifth_power<A>(Float<A>(1.f) - Float<A>(.5f) * cos);
   }
-
-  static YAT_INLINE Scattered<A> both(const Parameters& p, const BsdfView<A>& view,
-                                      const Parts& parts, const Vec3<A>& wi) {
-    const Float<A> one(1.f), zero(0.f);
+  static YAT_INLINE Spectrum<A> base_share(const Parameters&, const Parts& parts, const Vec3<A>& wo,
+                                           const Spectrum<A>&, const Spectrum<A>& covered) {
+    return covered * base(parts, wo);
+  }
+  static YAT_INLINE Spectrum<A> value(const Parameters& p, const BsdfView<A>& view,
+                                      const Parts& parts, const Vec3<A>& wi, const Vec3<A>& h) {
+    const Float<A> one(1.f), cos_h = dot(wi, h);
     const Vec3<A>& wo = view.wo;
-    const Vec3<A> h = MicrofacetLobe<A>::half_vector(wo, wi);
-    const Float<A> cos_h = dot(wi, h);
     const Float<A> coat = only<A>(!parts.lobe.smooth, Float<A>(.25f) * parts.lobe.distribution(h) /
                                                           (cos_h * xsimd::max(wi.z, wo.z)));
-    const Spectrum<A> base = coat_absorption<A>(parts.ka, p.depth, one / wo.z + one / wi.z) *
-                             ((Float<A>(kInvPi) * rim(wi.z)) * parts.base);
-    const Mask<A> above = wi.z > zero;
-    return {only<A>(above, sum<A>(coat * coat_fresnel<A>(parts.r0, cos_h), base)),
-            only<A>(above, parts.chance * parts.lobe.pdf(wo, h) +
-                               (one - parts.chance) * cosine_hemisphere_pdf<A>(wi.z))};
-  }
-
-  static YAT_INLINE Spectrum<A> evaluate(const Parameters& p, const BsdfView<A>& view,
-                                         const Vec3<A>& wi) {
-    return both(p, view, Parts::of(p, view), wi).f;
-  }
-  static YAT_INLINE Float<A> pdf(const Parameters& p, const BsdfView<A>& view, const Vec3<A>& wi) {
-    return both(p, view, Parts::of(p, view), wi).pdf;
-  }
-  static YAT_INLINE BsdfSample<A> sample(const Parameters& p, const BsdfView<A>& view,
-                                         const Float<A>& u_lobe, const Float<A>& u,
-                                         const Float<A>& v) {
-    const Parts parts = Parts::of(p, view);
-    return sample_coated<A>(parts.lobe, parts.chance, coat_fresnel<A>(parts.r0, view.wo.z), view.wo,
-                            u_lobe, u, v,
-                            [&](const Vec3<A>& wi) { return both(p, view, parts, wi); });
+    return coat * coat_fresnel<A>(parts.r0, cos_h) +
+           coat_absorption<A>(parts.ka, p.depth, one / wo.z + one / wi.z) *
+               ((Float<A>(kInvPi) * rim(wi.z)) * base(parts, wo));
   }
 };
 

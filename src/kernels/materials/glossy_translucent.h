@@ -47,7 +47,8 @@ inline constexpr MaterialTraits kGlossyTranslucentTraits{.name = "glossy_translu
 namespace YAT_ISA {
 
 template <class A>
-struct GlossyTranslucent {
+struct GlossyTranslucent
+    : EvaluateByParts<A, GlossyTranslucent<A>, GlossyTranslucentParameters<Lanes<A>::template Of>> {
   using Parameters = GlossyTranslucentParameters<Lanes<A>::template Of>;
 
   struct Coat {
@@ -97,11 +98,11 @@ struct GlossyTranslucent {
     }
   };
 
-  static YAT_INLINE Scattered<A> both(const BsdfView<A>& view, const Parts& parts,
-                                      const Vec3<A>& wi) {
+  static YAT_INLINE Scattered<A> both(const Parameters&, const BsdfView<A>& view,
+                                      const Parts& parts, const Vec3<A>& wi) {
     const Float<A> one(1.f), zero(0.f), inverse_pi(kInvPi);
     const Vec3<A>& wo = view.wo;
-    const Mask<A> above = wi.z > zero, below = wi.z < zero;
+    const Mask<A> seen = wo.z > zero, above = wi.z > zero;
     const Float<A> cos_i = xsimd::abs(wi.z);
     const Vec3<A> h = MicrofacetLobe<A>::half_vector(wo, {wi.x, wi.y, cos_i});
     const Float<A> cos_h = dot(wo, h);
@@ -112,9 +113,9 @@ struct GlossyTranslucent {
     const Float<A> lobe =
         parts.lobe.evaluate(wo, {wi.x, wi.y, cos_i}, h) +
         parts.multibounce * between_facets<A>(parts.lobe, wo, {wi.x, wi.y, cos_i}, kPi);
-    const Spectrum<A> reflected = sum<A>(
-        lobe * here, coat_absorption<A>(parts.here.ka, parts.here.depth, one / wo.z + one / cos_i) *
-                         (one_minus<A>(here) * (inverse_pi * parts.kd)));
+    const Spectrum<A> reflected = lobe * here + coat_absorption<A>(parts.here.ka, parts.here.depth,
+                                                                   one / wo.z + one / cos_i) *
+                                                    (one_minus<A>(here) * (inverse_pi * parts.kd));
     const Spectrum<A> enters = one_minus<A>(here) * one_minus<A>(there);
     const Spectrum<A> legs = coat_absorption<A>(parts.here.ka, parts.here.depth, one / wo.z) *
                              coat_absorption<A>(parts.there.ka, parts.there.depth, one / cos_i);
@@ -123,18 +124,11 @@ struct GlossyTranslucent {
                 (inverse_pi * parts.kt));
     const Float<A> cosine = inverse_pi * cos_i;
     const Float<A> base = xsimd::max(one - parts.coat - parts.through, zero);
-    return {only<A>(above | below, select<A>(above, reflected, transmitted)),
-            xsimd::select(above, parts.coat * parts.lobe.pdf(wo, h) + base * cosine,
-                          parts.through * cosine)};
+    return {only<A>(seen & (cos_i > zero), select<A>(above, reflected, transmitted)),
+            only<A>(seen, xsimd::select(above, parts.coat * parts.lobe.pdf(wo, h) + base * cosine,
+                                        parts.through * cosine))};
   }
 
-  static YAT_INLINE Spectrum<A> evaluate(const Parameters& p, const BsdfView<A>& view,
-                                         const Vec3<A>& wi) {
-    return both(view, Parts::of(p, view), wi).f;
-  }
-  static YAT_INLINE Float<A> pdf(const Parameters& p, const BsdfView<A>& view, const Vec3<A>& wi) {
-    return both(view, Parts::of(p, view), wi).pdf;
-  }
   static YAT_INLINE BsdfSample<A> sample(const Parameters& p, const BsdfView<A>& view,
                                          const Float<A>& u_lobe, const Float<A>& u,
                                          const Float<A>& v) {
@@ -146,7 +140,7 @@ struct GlossyTranslucent {
     BsdfSample<A> s;
     s.wi = select(coat, parts.lobe.sample(view.wo, u, v).wi,
                   Vec3<A>{w.x, w.y, xsimd::select(through, -w.z, w.z)});
-    const Scattered<A> value = both(view, parts, s.wi);
+    const Scattered<A> value = both(p, view, parts, s.wi);
     // A facet may reflect below the horizon: that is no transmission.
     const Mask<A> kept = (value.pdf > zero) & !(coat & (s.wi.z <= zero));
     s.pdf = only<A>(kept, value.pdf);
