@@ -58,7 +58,8 @@ class TracedSet {
   /// All rays on this thread.
   TraceTime trace();
   /// All rays on each of `threads` threads at once, each with memory of its own as the workers of a
-  /// render have; times are divided by the threads, that is for one set.
+  /// render have, again and again for at least 20 ms after a pass that fills the caches; times are
+  /// those of one pass divided by the threads, that is for one set.
   TraceTime trace_on(uint32_t threads);
 
   /// Answers of the first thread's last trace. A shadow ray: prim = 0 where it is stopped, else

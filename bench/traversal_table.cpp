@@ -25,12 +25,13 @@ struct Timing {
 
 struct OurTiming : Timing {
   LaneCount lanes;
-  std::vector<double> wall;  ///< on one thread
   struct OnThreads {
     uint32_t threads;
     std::vector<double> cpu, wall;
   };
+  OnThreads one{1, {}, {}};  ///< measured as `more` are
   std::vector<OnThreads> more;
+  double gain(const OnThreads& by) const { return median(one.wall) / median(by.wall); }
 };
 
 struct TheirTiming : Timing {
@@ -79,11 +80,12 @@ Json json_of(const Config& config, const OurTiming& t, double rays) {
   if (t.lanes.steps)
     json["lanes"] = double(t.lanes.rows) / (double(t.lanes.steps) * config.table->lanes);
   for (const OurTiming::OnThreads& more : t.more)
-    json["threads"].push_back({{"threads", more.threads},
-                               {"wall", more.wall},
-                               {"one_thread_wall", t.wall},
-                               {"scaling", median(t.wall) / median(more.wall)},
-                               {"scaling_cpu", more.threads * t.middle() / median(more.cpu)}});
+    json["threads"].push_back(
+        {{"threads", more.threads},
+         {"wall", more.wall},
+         {"one_thread_wall", t.one.wall},
+         {"scaling", t.gain(more)},
+         {"scaling_cpu", more.threads * median(t.one.cpu) / median(more.cpu)}});
   return json;
 }
 
@@ -125,15 +127,18 @@ class SetRow {
     traced_[c]->trace();
     const TraceTime time = traced_[c]->trace();
     ours_[c].seconds.push_back(time.cpu);
-    ours_[c].wall.push_back(time.wall);
     ours_[c].lanes = time.lanes;
+    const auto measure = [&](OurTiming::OnThreads& to) {
+      const TraceTime on = traced_[c]->trace_on(to.threads);
+      to.cpu.push_back(on.cpu);
+      to.wall.push_back(on.wall);
+    };
     size_t next = 0;
     for (const uint32_t threads : options.threads) {
       if (threads < 2) continue;
       if (ours_[c].more.size() == next) ours_[c].more.push_back({threads, {}, {}});
-      const TraceTime more = traced_[c]->trace_on(threads);
-      ours_[c].more[next].cpu.push_back(more.cpu);
-      ours_[c].more[next++].wall.push_back(more.wall);
+      if (next == 0) measure(ours_[c].one);
+      measure(ours_[c].more[next++]);
     }
   }
 
@@ -172,7 +177,7 @@ class SetRow {
       fmt::print("{:<10} {:>8.0f}  {:<22} {:7.2f} {:7.1f} {:>6}", c ? "" : set_.name, n,
                  config.name(), n / ours_[c].middle() * 1e-6, ours_[c].middle() / n * 1e9, lanes);
       for (const OurTiming::OnThreads& more : ours_[c].more)
-        std::printf("  %ux: %.2f", more.threads, median(ours_[c].wall) / median(more.wall));
+        std::printf("  %ux: %.2f", more.threads, ours_[c].gain(more));
       if (const TheirTiming* const theirs = best()) {
         const std::vector<Hit<Value>> hits = answers(*traced_[c]);
         const Differences d = compare(prepared_.scene, set_, hits, their_hits_);
