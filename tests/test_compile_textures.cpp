@@ -152,7 +152,7 @@ TEST_F(CompileTextures, PositionsAreAboutTheSceneCentre) {
   const auto p = constants<MapPlanarParameters>(scene.programs[0].steps[0], 0);
   EXPECT_EQ(p.s_x, 1);
   EXPECT_EQ(p.s_delta, 1000.25f);
-  EXPECT_EQ(scene.programs[0].uv, UvUse::kNone);
+  EXPECT_EQ(scene.programs[0].uv, UvUse::kUnread);
 }
 
 TEST_F(CompileTextures, MipsAskForFootprints) {

@@ -75,7 +75,7 @@ MeshRows add_mesh_rows(const PlacedShape& placed, const Mesh& mesh, const glm::d
   const bool mirrored = placed.reverse_orientation != placed.placement.mirrored;
   uint64_t no_area = 0, not_finite = 0, bad_normals = 0;
   // Texture coordinates are for textures, and say where dp/du points.
-  const bool keep_uv = (uv != UvUse::kNone || placed.material.tangents) && !mesh.uvs.empty();
+  const bool keep_uv = (uv != UvUse::kUnread || placed.material.tangents) && !mesh.uvs.empty();
   bool flat = !keep_uv;
   // By halves more at least: many small meshes must not copy the table each time.
   const size_t wanted = triangles.size() + mesh.triangles();

@@ -212,7 +212,7 @@ InstanceRow<Value> ObjectCompiler::row_of(const Object& object, const Map& map) 
 }
 
 UvUse ObjectCompiler::uv_use(uint32_t object, uint32_t mesh) const {
-  UvUse most = UvUse::kNone;
+  UvUse most = UvUse::kUnread;
   for (const SharedShapes::Instance& instance : shapes_.instances)
     if (instance.object == object)
       most = std::max(most, shapes_.materials[instance.materials][mesh].uv);

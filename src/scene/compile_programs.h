@@ -50,7 +50,7 @@ class TexturePrograms {
     std::array<uint32_t, 3> bump_columns{};
     bool normal_map = false;
     uint32_t columns = 0;
-    UvUse uv = UvUse::kNone;
+    UvUse uv = UvUse::kUnread;
     bool derivatives = false;
     std::vector<std::vector<uint32_t>> nodes;       ///< per row: the node of each step
     std::vector<std::vector<uint32_t>> bump_nodes;  ///< per row, likewise

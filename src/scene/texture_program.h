@@ -25,7 +25,7 @@ struct TextureStep {
 
 /// What textures want of a mesh's texture coordinates.
 enum class UvUse : uint32_t {
-  kNone,
+  kUnread,
   kIfThere,  ///< bump maps: directions along the surface
   kNeeded,   ///< some step maps by them
 };
@@ -44,7 +44,7 @@ struct TextureProgram {
   bool normal_map = false;
   AlignedArray<uint32_t> bump;  ///< BumpParameters; as many rows as materials
   uint32_t columns = 0;         ///< that the steps use
-  UvUse uv = UvUse::kNone;
+  UvUse uv = UvUse::kUnread;
   bool derivatives = false;           ///< some step reads SurfaceDerivatives
   AlignedArray<uint32_t> parameters;  ///< the material's records, as far as no texture gives them
   uint32_t rows = 0;                  ///< materials that share the program
