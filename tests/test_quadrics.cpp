@@ -85,8 +85,8 @@ TEST_P(Quadrics, SpheresAgreeWithDouble) {
 
 TEST_P(Quadrics, PlanesAgreeWithDouble) {
   RowTable<PlaneRow> rows(2);
-  rows.set(0, {0, 0, 1, -0.5f, 0, 1});
-  rows.set(1, {0.6f, 0.8f, 0, 2, 0, 0});
+  rows.set(0, {0, 0, 1, -0.5f, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0});
+  rows.set(1, {0.6f, 0.8f, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   std::vector<uint32_t> counts = tail_counts(kernels().lanes);
   counts.push_back(1000);
   for (const uint32_t n : counts) {
@@ -124,8 +124,11 @@ TEST_P(Quadrics, RaysSpawnedOnASphere) {
     for (const double away : {0., 3., 100.}) {
       Rng rng(2);
       const Vec center = random_direction(rng) * (away * radius);
-      const SphereRow<Value> s{
-          float(center.x), float(center.y), float(center.z), float(radius), 0, 0, kNone, 1};
+      SphereRow<Value> s{};
+      s.center_x = float(center.x), s.center_y = float(center.y), s.center_z = float(center.z);
+      s.radius = float(radius);
+      s.light = kNone;
+      s.occludes = 1;
       const RowTable<SphereRow> rows = sphere_rows({s});
       std::vector<Ray<Value>> rays;
       std::vector<bool> outward;

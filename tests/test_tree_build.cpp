@@ -192,6 +192,35 @@ TEST(TreeBuild, PlanesCutWhatPartitionsCannotSeparate) {
   EXPECT_LT(planes.sah_cost, 0.9 * objects.sah_cost);
 }
 
+// A split that takes one wall from the others gains nothing by itself: room around a ball.
+TEST(TreeBuild, WallsOfARoomAreParted) {
+  Mesh mesh = closed_sphere(40, {}, .5);
+  add_box(mesh, {-2, -1, -3}, {2, 1, 3});
+  mesh.done();
+  ThreadPool pool{1};
+  const Tree tree = build_tree(mesh.rows.view(), {}, {16, false}, pool);
+  ASSERT_EQ(verify_tree(tree, mesh.rows.view()), "");
+  double tests = 0;  // Triangles of large leaves whose box a random line through the room meets.
+  for (uint32_t row = 0; row < tree.view.node_count; ++row) {
+    const TreeNode& node = tree.view.nodes[row];
+    for (uint32_t c = 0; c < 8 && node.child[c] != kNone; ++c) {
+      const double x = double(node.max_x[c]) - double(node.min_x[c]),
+                   y = double(node.max_y[c]) - double(node.min_y[c]),
+                   z = double(node.max_z[c]) - double(node.min_z[c]);
+      const double share = (x * y + y * z + z * x) / 44;
+      if (!(node.child[c] >> 31) || share < .15) continue;
+      const uint32_t block = (node.child[c] & 0x7fffffffu) >> 5;
+      const auto* const prims =
+          reinterpret_cast<const uint32_t*>(tree.view.blocks + size_t(block) * 160 + 144);
+      tests +=
+          share * double(std::count_if(prims, prims + 16, [](uint32_t p) { return p != kNone; }));
+    }
+  }
+  // Two for each of six walls, whose areas sum up to twice the room's; at most two walls in one.
+  EXPECT_GE(tests, 3.9);
+  EXPECT_LE(tests, 8);
+}
+
 // A test that cannot fail proves nothing: damage must be seen.
 TEST(TreeBuild, VerifySeesDamage) {
   const Mesh mesh = soup(2000, 0.1, 6);

@@ -77,11 +77,11 @@ double float_parameter(Parameters& parameters, std::string_view name, double fal
 /// Where a shape's material is in the parameter tables.
 struct MaterialRef {
   MaterialKind kind = MaterialKind::kMatte;
-  uint32_t row = 0;          ///< of the kind's table, or of the program's
-  uint32_t program = kNone;  ///< row of Scene::programs, or kNone: nothing is textured
-  UvUse uv = UvUse::kUnread;   ///< what its textures want of the shape's texture coordinates
-  bool tangents = false;     ///< looks different from other sides: needs dp/du
-  uint32_t split = kNone;    ///< row of Scene::splits
+  uint32_t row = 0;           ///< of the kind's table, or of the program's
+  uint32_t program = kNone;   ///< row of Scene::programs, or kNone: nothing is textured
+  UvUse uv = UvUse::kUnread;  ///< what its textures want of the shape's texture coordinates
+  bool tangents = false;      ///< looks different from other sides: needs dp/du
+  uint32_t split = kNone;     ///< row of Scene::splits
   Passing passing = Passing::kSolid;
 };
 
