@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "judge.h"
 #include "kernels/dispatch.h"
+#include "thread_control.h"
 #if defined(YAT_WITH_EMBREE)
 #include "embree_trace.h"
 #endif
@@ -333,6 +334,12 @@ Json run_table(const Prepared& prepared, const TableOptions& options, uint64_t& 
       if (const Timing* t = row.best()) mix[c].best += t->middle();
       if (const Timing* t = row.best_single()) mix[c].single += t->middle();
     }
+  }
+  for (const uint32_t threads : options.threads) {
+    if (threads < 2) continue;
+    const double gain = registers_gain(threads);
+    std::printf("control              registers only         %ux: %.2f\n", threads, gain);
+    json["thread_control"].push_back({{"threads", threads}, {"scaling", gain}});
   }
   for (size_t c = 0; c < mix.size(); ++c) {
     Json entry = {{"config", prepared.configs[c].name()}, {"seconds", mix[c].ours}};

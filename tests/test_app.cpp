@@ -117,7 +117,8 @@ TEST(Options, MistakesNameTheOptionAndTheWayOut) {
 
 TEST(Options, HelpListsEveryOptionWithItsDefault) {
   for (const auto& [command, options] :
-       {std::pair("render", render_option_texts()), std::pair("info", info_option_texts())}) {
+       {std::pair("render", render_option_texts()), std::pair("info", info_option_texts()),
+        std::pair("diff", diff_option_texts())}) {
     const CommandLine line = parse({command, "--help"});
     EXPECT_EQ(line.command, Command::kHelp);
     for (const OptionText& option : options) {
@@ -144,6 +145,9 @@ TEST(Options, DocumentsHoldTheTablesOfTheProgram) {
   EXPECT_NE(document.find(option_table(info_option_texts())), std::string::npos)
       << "docs/command-line.md must hold this table:\n"
       << option_table(info_option_texts());
+  EXPECT_NE(document.find(option_table(diff_option_texts())), std::string::npos)
+      << "docs/command-line.md must hold this table:\n"
+      << option_table(diff_option_texts());
   EXPECT_NE(read_whole(YAT_SOURCE_DIR "/README.md").find(option_table(render_option_texts())),
             std::string::npos)
       << "README.md must hold this table:\n"

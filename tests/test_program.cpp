@@ -53,6 +53,36 @@ class Program : public testing::Test {
   fs::path folder_;
 };
 
+TEST_F(Program, DiffSaysByItsExitCodeWhatDiffers) {
+  ASSERT_EQ(yat({"render", "scene.lxs", "--spp", "4", "-o", "a.exr", "-o", "a.png"}).code, 0);
+  ASSERT_EQ(yat({"render", "scene.lxs", "--spp", "4", "--seed", "1", "-o", "b.exr"}).code, 0);
+  const ProgramResult same = yat({"diff", "a.exr", "a.exr", "--fail", "0"});
+  EXPECT_EQ(same.code, 0);
+  EXPECT_NE(same.out.find("MSE               0\n"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("PASS\n"), std::string::npos) << same.out;
+  // Without thresholds figures are all there is.
+  const ProgramResult shown = yat({"diff", "a.exr", "b.exr"});
+  EXPECT_EQ(shown.code, 0);
+  EXPECT_EQ(shown.out.find("PASS"), std::string::npos);
+  EXPECT_NE(shown.out.find("HDR-FLIP"), std::string::npos) << shown.out;
+  EXPECT_EQ(yat({"diff", "a.exr", "b.exr", "--fail", "1e-6"}).code, 4);
+  EXPECT_EQ(yat({"diff", "a.exr", "b.exr", "--fail", "1e6"}).code, 0);
+  EXPECT_EQ(yat({"diff", "a.exr", "b.exr", "--warn", "1e-6", "--fail", "1e6"}).code, 5);
+  EXPECT_EQ(yat({"diff", "a.exr", "b.exr", "--failpercent", "100", "--hardfail", "1e-6"}).code, 4);
+  EXPECT_EQ(yat({"diff", "a.exr", "b.exr", "--failrelmse", "1e-9"}).code, 4);
+  EXPECT_EQ(yat({"diff", "a.exr", "b.exr", "--failflip", "1"}).code, 0);
+  ASSERT_EQ(yat({"diff", "a.exr", "b.exr", "-o", "map.exr"}).code, 0);
+  EXPECT_TRUE(has("map.exr"));
+  const ProgramResult display = yat({"diff", "a.png", "a.png"});
+  EXPECT_NE(display.out.find("display values"), std::string::npos) << display.out;
+  EXPECT_EQ(display.out.find("HDR-FLIP"), std::string::npos) << display.out;
+  const ProgramResult missing = yat({"diff", "a.exr", "none.exr"});
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_EQ(missing.err.rfind("none.exr: error: ", 0), 0u) << missing.err;
+  EXPECT_EQ(yat({"diff", "a.exr"}).code, 2);
+  EXPECT_EQ(yat({"diff", "a.exr", "b.exr", "--fail", "-1"}).code, 2);
+}
+
 TEST_F(Program, VersionAndHelpGoToStandardOutput) {
   const ProgramResult version = yat({"--version"});
   EXPECT_EQ(version.code, 0);

@@ -92,6 +92,20 @@ constexpr OptionText kInfoOptions[] = {
     {"-h,--help", "", "", "print this"},
 };
 
+constexpr OptionText kDiffOptions[] = {
+    {"-o,--output", "FILE", "none", "map of FLIP per pixel: .exr for the values, .png for greys"},
+    {"--fail", "X", "0 if another --fail option is there",
+     "a pixel with a channel that differs by more than X counts as failed"},
+    {"--failpercent", "P", "0", "so many percent of the pixels may fail"},
+    {"--hardfail", "X", "none", "one pixel that differs by more than X is enough"},
+    {"--failrelmse", "X", "none", "fail where relMSE is above X"},
+    {"--failflip", "X", "none", "fail where FLIP (HDR-FLIP of radiance) is above X"},
+    {"--warn", "X", "0 if another --warn option is there", "as --fail, for a warning"},
+    {"--warnpercent", "P", "0", "as --failpercent, for a warning"},
+    {"--hardwarn", "X", "none", "as --hardfail, for a warning"},
+    {"-h,--help", "", "", "print this"},
+};
+
 constexpr std::array<std::pair<std::string_view, Integrator>, 2> kIntegrators = {
     {{"path", Integrator::kPath}, {"direct", Integrator::kDirect}}};
 constexpr std::array<std::pair<std::string_view, SamplerKind>, 7> kSamplers = {
@@ -247,6 +261,45 @@ void add_render(Adder& add, Arguments& arguments, Given& given) {
   add("--progress", given.progress);
 }
 
+/// The thresholds as text.
+struct GivenThresholds {
+  std::string each, percent, any;
+  std::optional<Thresholds> read(const std::string& word) const {
+    if (each.empty() && percent.empty() && any.empty()) return {};
+    Thresholds out;
+    if (!each.empty()) out.each = number<double>("--" + word, each, each, 0, 1e30);
+    if (!percent.empty())
+      out.percent = number<double>("--" + word + "percent", percent, percent, 0, 100);
+    if (!any.empty()) out.any = number<double>("--hard" + word, any, any, 0, 1e30);
+    return out;
+  }
+};
+
+/// The options of yat diff, as they came.
+struct GivenDiff {
+  GivenThresholds fail, warn;
+  std::string rel_mse, flip;
+
+  void add_to(Adder& add, DiffArguments& arguments) {
+    add("--output", arguments.output);
+    add("--fail", fail.each);
+    add("--failpercent", fail.percent);
+    add("--hardfail", fail.any);
+    add("--failrelmse", rel_mse);
+    add("--failflip", flip);
+    add("--warn", warn.each);
+    add("--warnpercent", warn.percent);
+    add("--hardwarn", warn.any);
+  }
+  void read(DiffArguments& to) const {
+    to.fail = fail.read("fail");
+    to.warn = warn.read("warn");
+    if (!rel_mse.empty())
+      to.fail_rel_mse = number<double>("--failrelmse", rel_mse, rel_mse, 0, 1e30);
+    if (!flip.empty()) to.fail_flip = number<double>("--failflip", flip, flip, 0, 1);
+  }
+};
+
 void read_given(const Given& given, Arguments& to) {
   if (!given.spp.empty())
     to.samples_per_pixel = number<uint32_t>("--spp", given.spp, given.spp, 1, kMostSamples);
@@ -338,18 +391,21 @@ std::string general_help() {
   return "Usage: yat render SCENE [OPTION...]   render a LuxRender scene (.lxs) to pictures\n"
          "       yat info SCENE [OPTION...]     say what the scene holds and how it would be "
          "rendered\n"
+         "       yat diff PICTURE REFERENCE     compare two pictures\n"
          "       yat -i SCENE [-o FILE] ...     the same by YART's rules and flags (yat -i -h "
          "lists "
          "them)\n"
          "       yat --version\n"
          "\n"
-         "`yat render --help` and `yat info --help` list the options with their defaults.\n"
+         "`yat render --help`, `yat info --help` and `yat diff --help` list the options with their "
+         "defaults.\n"
          "Exit codes: 0 done, 1 bad scene or input, 2 bad usage, 3 out of memory, disk or the "
          "like,\n"
+         "4 and 5 pictures that differ by yat diff's fail and warn thresholds,\n"
          "130 interrupted (the picture so far is written).\n";
 }
 
-std::string help_for(const CLI::App* render, const CLI::App* info) {
+std::string help_for(const CLI::App* render, const CLI::App* info, const CLI::App* diff) {
   if (render->parsed())
     return help_of("yat render SCENE [OPTION...]", "Renders a LuxRender scene (.lxs) to pictures.",
                    kRenderOptions);
@@ -359,6 +415,12 @@ std::string help_for(const CLI::App* render, const CLI::App* info) {
         "Says what the scene holds, which stages and kernels would run, what the tree is "
         "like, and memory.",
         kInfoOptions);
+  if (diff->parsed())
+    return help_of(
+        "yat diff PICTURE REFERENCE [OPTION...]",
+        "Compares two pictures of one size: MSE, relMSE, MAPE, PSNR, FLIP, outliers. Exit "
+        "code 4 and FAIL, 5 and WARN, or 0 and PASS by the thresholds that are given.",
+        kDiffOptions);
   return general_help();
 }
 
@@ -388,6 +450,10 @@ std::span<const OptionText> render_option_texts() {
 }
 std::span<const OptionText> info_option_texts() {
   return kInfoOptions;
+}
+
+std::span<const OptionText> diff_option_texts() {
+  return kDiffOptions;
 }
 
 std::string option_table(std::span<const OptionText> options) {
@@ -443,6 +509,13 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     command->set_help_flag("-h,--help");
     command->add_option("SCENE", line.arguments.scene)->required();
   }
+  CLI::App* diff = app.add_subcommand("diff");
+  diff->set_help_flag("-h,--help");
+  diff->add_option("PICTURE", line.diff.picture)->required();
+  diff->add_option("REFERENCE", line.diff.reference)->required();
+  GivenDiff given_diff;
+  Adder add_to_diff(*diff, kDiffOptions);
+  given_diff.add_to(add_to_diff, line.diff);
   Adder add_to_render(*render, kRenderOptions), add_to_info(*info, kInfoOptions);
   add_render(add_to_render, line.arguments, given);
   add_shared(add_to_info, line.arguments, given);
@@ -450,7 +523,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    line.text = help_for(render, info);
+    line.text = help_for(render, info, diff);
     return line;
   } catch (const CLI::CallForVersion&) {
     line.text = fmt::format("yat {} ({})\n", kBuildInfo.version, kBuildInfo.commit);
@@ -459,12 +532,20 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     if (argc < 2)
       throw UsageError(
           "nothing to do: say `yat render SCENE` or `yat info SCENE` (yat --help says more)");
-    const auto options = info->parsed() ? info_option_texts() : render_option_texts();
+    const auto options = info->parsed()   ? info_option_texts()
+                         : diff->parsed() ? diff_option_texts()
+                                          : render_option_texts();
     throw UsageError(fmt::format("{}{}; yat {}--help lists what there is", error.what(),
                                  option_suggestion(argc, argv, options),
                                  render->parsed() ? "render "
                                  : info->parsed() ? "info "
+                                 : diff->parsed() ? "diff "
                                                   : ""));
+  }
+  if (diff->parsed()) {
+    given_diff.read(line.diff);
+    line.command = Command::kDiff;
+    return line;
   }
   read_given(given, line.arguments);
   line.command = render->parsed() ? Command::kRender : Command::kInfo;

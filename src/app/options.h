@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/diff.h"
 #include "app/yart_options.h"
 #include "film/features.h"
 #include "film/settings.h"
@@ -28,6 +29,7 @@ struct OptionText {
 
 std::span<const OptionText> render_option_texts();
 std::span<const OptionText> info_option_texts();
+std::span<const OptionText> diff_option_texts();
 
 /// The options as rows of a Markdown table, one line each: what docs and README must hold.
 std::string option_table(std::span<const OptionText> options);
@@ -69,12 +71,13 @@ struct Arguments {
   Verbosity verbosity = Verbosity::kNormal;
 };
 
-enum class Command { kRender, kInfo, kYart, kHelp };
+enum class Command { kRender, kInfo, kDiff, kYart, kHelp };
 
 struct CommandLine {
   Command command = Command::kHelp;
   Arguments arguments;
   YartArguments yart;
+  DiffArguments diff;
   std::string text;  ///< kHelp: what --help or --version prints
 };
 

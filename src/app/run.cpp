@@ -9,6 +9,7 @@
 
 #include "app/build_info.h"
 #include "app/console.h"
+#include "app/diff.h"
 #include "app/info.h"
 #include "app/interrupt.h"
 #include "app/load.h"
@@ -178,6 +179,20 @@ ExitCode info_command(const Arguments& arguments, Console& console) {
   return ExitCode::kDone;
 }
 
+ExitCode diff_command(const DiffArguments& arguments) {
+  const DiffResult result = diff(arguments);
+  print(result.text);
+  switch (result.verdict) {
+    case DiffVerdict::kFailed:
+      return ExitCode::kDiffers;
+    case DiffVerdict::kWarned:
+      return ExitCode::kDiffersALittle;
+    case DiffVerdict::kWithin:
+      break;
+  }
+  return ExitCode::kDone;
+}
+
 }  // namespace
 
 ExitCode run(int argc, const char* const* argv) {
@@ -196,6 +211,8 @@ ExitCode run(int argc, const char* const* argv) {
         return info_command(line.arguments, console);
       case Command::kRender:
         return render_command(line.arguments, console);
+      case Command::kDiff:
+        return diff_command(line.diff);
       case Command::kYart:
         return yart_command(line.yart, console);
     }

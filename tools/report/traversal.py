@@ -105,8 +105,10 @@ def _over_scalar(data):
 def _threads(data):
     """A row per scene, config and number of threads, a column per set."""
     sets = list(dict.fromkeys(r["set"] for s in data["scenes"] for r in s["rows"]))
-    cells = {}
+    cells, control = {}, {}
     for scene in data["scenes"]:
+        for more in scene.get("thread_control", []):
+            control[(scene["scene"], more["threads"])] = f"{more['scaling']:.2f}"
         for row in scene["rows"]:
             for mine in row["yat"]:
                 for more in mine.get("threads", []):
@@ -115,11 +117,13 @@ def _threads(data):
                         f"{more['scaling']:.2f} / {more['scaling_cpu']:.2f}")
     if not cells:
         return []
-    rows = [list(key) + [by_set.get(name, "") for name in sets] for key, by_set in cells.items()]
+    rows = [list(key) + [by_set.get(name, "") for name in sets] +
+            [control.get((key[0], key[2]), "")] for key, by_set in cells.items()]
     lines = ["### Threads", "",
              "Gain over one thread by the clock / by processor time. Other programs disturb the "
-             "first; the second shows what the threads cost each other in caches and memory.", ""]
-    return lines + table(["scene", "yat", "threads"] + sets, rows)
+             "first; the second shows what the threads cost each other in caches and memory. Control: "
+             "arithmetic that stays in registers, by the clock.", ""]
+    return lines + table(["scene", "yat", "threads"] + sets + ["control"], rows)
 
 
 def _differences(data):
