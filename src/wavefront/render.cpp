@@ -14,13 +14,9 @@ namespace yat {
 
 namespace {
 
-/// Paths under way per worker, as measured (docs/decisions.md, "Rows of a batch"): few enough that
-/// everything stays near the processor, more where the tree does not fit there anyway and longer
-/// streams share what is fetched of it.
-uint32_t default_batch_rows(const Scene& scene) {
-  constexpr size_t kLargeTree = size_t(1) << 20;  // [bytes]: a core's L2 cache
-  return scene.tree.bytes() > kLargeTree ? 32768 : 8192;
-}
+/// Paths under way per worker, as measured (docs/decisions.md, "Rows of a batch"): as many as fill
+/// traversal's streams while the batch stays near the processor.
+constexpr uint32_t kBatchRows = 8192;
 
 /// What the workers share: the units, and the sums of what they counted.
 struct Shared {
@@ -31,8 +27,7 @@ struct Shared {
         options(the_options),
         film(the_film),
         work(scene.film, options.first_sample, options.end_sample, options.tile_size, workers),
-        batch_rows(
-            padded_rows(options.batch_rows ? options.batch_rows : default_batch_rows(scene))) {
+        batch_rows(padded_rows(options.batch_rows ? options.batch_rows : kBatchRows)) {
     if (options.tile_done) units_left.resize(work.units().size() / work.splits(), work.splits());
   }
 
