@@ -83,6 +83,18 @@ TEST_F(CompileScenes, TheOtherBundledScenesSayNothing) {
                          double(l.b_x * l.c_y - l.b_y * l.c_x)};
     EXPECT_LT(n[0] * double(l.a_x) + n[1] * double(l.a_y) + n[2] * double(l.a_z), 0);
   }
+  scene = bundled("materials");
+  EXPECT_GE(scene.bins.size(), 15u) << "sixteen balls, nearly all of another kind";
+  scene = bundled("shapes");
+  EXPECT_EQ(scene.spheres.size(), 1u);
+  EXPECT_EQ(scene.planes.size(), 1u);
+  EXPECT_EQ(scene.shapes.size(), 8u) << "two spheres that are not whole or round, and six kinds";
+  scene = bundled("textures");
+  EXPECT_EQ(scene.programs.size(), 7u);
+  scene = bundled("sun-and-sky");
+  EXPECT_EQ(scene.light_kinds,
+            1u << uint32_t(LightKind::kSun) | 1u << uint32_t(LightKind::kSky));
+  EXPECT_EQ(scene.shapes.size(), 10u) << "a column is a cylinder";
   EXPECT_EQ(messages, "");
 }
 
