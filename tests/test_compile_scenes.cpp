@@ -92,8 +92,7 @@ TEST_F(CompileScenes, TheOtherBundledScenesSayNothing) {
   scene = bundled("textures");
   EXPECT_EQ(scene.programs.size(), 7u);
   scene = bundled("sun-and-sky");
-  EXPECT_EQ(scene.light_kinds,
-            1u << uint32_t(LightKind::kSun) | 1u << uint32_t(LightKind::kSky));
+  EXPECT_EQ(scene.light_kinds, 1u << uint32_t(LightKind::kSun) | 1u << uint32_t(LightKind::kSky));
   EXPECT_EQ(scene.shapes.size(), 10u) << "a column is a cylinder";
   EXPECT_EQ(messages, "");
 }

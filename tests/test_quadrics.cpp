@@ -40,9 +40,16 @@ double sphere_exact(const SphereRow<Value>& s, const Ray<Value>& r) {
 TEST_P(Quadrics, SpheresAgreeWithDouble) {
   std::vector<SphereRow<Value>> list;
   Rng rng(3);
-  for (uint32_t i = 0; i < 5; ++i)
-    list.push_back({float(uniform(rng, -2, 2)), float(uniform(rng, -2, 2)),
-                    float(uniform(rng, -2, 2)), float(uniform(rng, 0.2, 1)), 0, 0, kNone, i != 2});
+  for (uint32_t i = 0; i < 5; ++i) {
+    SphereRow<Value> s{};
+    s.center_x = float(uniform(rng, -2, 2));
+    s.center_y = float(uniform(rng, -2, 2));
+    s.center_z = float(uniform(rng, -2, 2));
+    s.radius = float(uniform(rng, 0.2, 1));
+    s.light = kNone;
+    s.occludes = i != 2;
+    list.push_back(s);
+  }
   const RowTable<SphereRow> rows = sphere_rows(list);
   std::vector<uint32_t> counts = tail_counts(kernels().lanes);
   counts.push_back(2000);
