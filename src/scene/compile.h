@@ -59,9 +59,11 @@ struct Bin {
 };
 inline constexpr uint32_t kMaxBins = 1024;  ///< in practice below 40
 
-/// Up to this many spheres and shapes are tried one after the other; more have a tree
-/// (docs/decisions.md).
-inline constexpr uint32_t kTriedShapes = 8;
+/// What trying a shape with every ray costs, in halves of a sphere. Shapes that together cost more
+/// than kTriedPrice have a tree (docs/decisions.md).
+inline constexpr uint32_t kSpherePrice = 2;
+inline constexpr uint32_t kShapePrice[kShapeKinds] = {10, 5, 50};  ///< by ShapeKind
+inline constexpr uint32_t kTriedPrice = 40;
 
 /// --tree: which tree over the triangles.
 enum class TreeChoice {

@@ -300,17 +300,21 @@ void GeometryRows::build_shape_trees(const std::vector<uint32_t>& sphere_order,
                                      const std::vector<uint32_t>& shape_order, Scene& scene) const {
   std::vector<TopBox> all, veils;
   std::vector<uint32_t> veil_items;  // what a leaf of the tree over veils stands for
-  const auto add = [&](const TopBox& box, const BinKey& key) {
+  uint64_t price = 0, veil_price = 0;
+  const auto add = [&](const TopBox& box, const BinKey& key, uint32_t own_price) {
     if (key.passing == Passing::kVeil) {
       veils.push_back(box);
       veil_items.push_back(uint32_t(all.size()));
+      veil_price += own_price;
     }
     all.push_back(box);
+    price += own_price;
   };
-  for (const uint32_t row : sphere_order) add(sphere_boxes_[row], sphere_keys_[row]);
-  for (const uint32_t row : shape_order) add(analytic_boxes_[row], analytic_keys_[row]);
-  if (all.size() > kTriedShapes) scene.shape_tree = build_top_tree(all);
-  if (veils.size() > kTriedShapes) scene.veil_shape_tree = build_top_tree(veils, veil_items);
+  for (const uint32_t row : sphere_order) add(sphere_boxes_[row], sphere_keys_[row], kSpherePrice);
+  for (const uint32_t row : shape_order)
+    add(analytic_boxes_[row], analytic_keys_[row], kShapePrice[analytic_[row].kind]);
+  if (price > kTriedPrice) scene.shape_tree = build_top_tree(all);
+  if (veil_price > kTriedPrice) scene.veil_shape_tree = build_top_tree(veils, veil_items);
 }
 
 }  // namespace yat
