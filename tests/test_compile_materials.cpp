@@ -365,6 +365,59 @@ TEST_F(CompileMaterials, FresnelOfMetal2) {
       "ignore: taken as that of a fresnelcolor texture");
 }
 
+TEST_F(CompileMaterials, Metal2ByYartIsCookTorrance) {
+  description.dialect = Dialect::kYart;
+  const auto by_colour = row_of<CookTorranceParameters>(
+      with(plugin("metal2", {color("fresnel", .2f, .3f, .4f), number("uroughness", .25f),
+                             color("Kr", 1, 0, 0)})),
+      MaterialKind::kCookTorrance);
+  EXPECT_EQ(by_colour.kr_r, .2f);
+  EXPECT_EQ(by_colour.kr_b, .4f);
+  EXPECT_EQ(by_colour.roughness, .25f);
+  const auto by_default =
+      row_of<CookTorranceParameters>(with(plugin("metal2", {})), MaterialKind::kCookTorrance);
+  EXPECT_EQ(by_default.kr_g, .5f);
+  EXPECT_EQ(by_default.roughness, .001f);
+  // Of a fresnel texture: its reflectance head-on.
+  description.textures.push_back(
+      {"f", "fresnel", plugin("constant", {number("value", 3)}), Matrix(1.)});
+  EXPECT_FLOAT_EQ(row_of<CookTorranceParameters>(with(plugin("metal2", {texture("fresnel", 0)})),
+                                                 MaterialKind::kCookTorrance)
+                      .kr_r,
+                  .25f);
+  options.compensation = EnergyCompensation::kOff;
+  EXPECT_EQ(row_of<CookTorranceSingleParameters>(with(plugin("metal2", {number("uroughness", 1)})),
+                                                 MaterialKind::kCookTorranceSingle)
+                .roughness,
+            1);
+  EXPECT_SILENT();
+  // LuxRender's lobes are as LuxRender has them, whatever the option says.
+  description.dialect = Dialect::kLuxRender;
+  options.compensation = EnergyCompensation::kOn;
+  EXPECT_EQ(row_of<MetalIndexParameters>(with(plugin("metal2", {})), MaterialKind::kMetalIndex).n_g,
+            5);
+}
+
+TEST_F(CompileMaterials, BrushedByATextureNeedsTangents) {
+  description.textures.push_back(
+      {"t", "float", plugin("checkerboard", {number("tex1", .1f), number("tex2", .5f)}),
+       Matrix(1.)});
+  description.textures.push_back(
+      {"c", "color", plugin("checkerboard", {color("tex1", 1, 0, 0), color("tex2", 0, 0, 1)}),
+       Matrix(1.)});
+  const auto tangents = [&](Plugin m) {
+    const Scene scene = with(std::move(m));
+    const Bin& bin = scene.bins[scene.prim_bin[0]];
+    EXPECT_NE(bin.program, kNone);
+    return bin.tangents;
+  };
+  EXPECT_TRUE(tangents(plugin("metal", {texture("uroughness", 0)})));
+  EXPECT_TRUE(tangents(plugin("glossy", {texture("vroughness", 0)})));
+  // The same all around: nothing varies but the colour, or both roughnesses are one texture's.
+  EXPECT_FALSE(tangents(plugin("glossy", {texture("Kd", 1)})));
+  EXPECT_FALSE(tangents(plugin("metal", {texture("uroughness", 0), texture("vroughness", 0)})));
+}
+
 TEST_F(CompileMaterials, BrushedMetalNeedsTangents) {
   const Scene round = with(plugin("metal", {}));
   EXPECT_FALSE(round.bins[round.prim_bin[0]].tangents);

@@ -55,6 +55,8 @@ void compile(const Arguments& arguments, const KernelTable& kernels, ThreadPool&
     options.crop_given = true;
   }
   options.instances = arguments.instances;
+  options.image_bytes = arguments.image_bytes;
+  options.compensation = arguments.compensation;
   loaded.scene = compile_scene(loaded.description, options, pool, diagnostics);
   if (arguments.tone_map) loaded.scene.film.tone_map = *arguments.tone_map;
   loaded.scene.film.exposure_stops = arguments.exposure_stops;

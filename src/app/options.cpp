@@ -50,6 +50,9 @@ constexpr OptionText kRenderOptions[] = {
      "objects placed by ObjectInstance: copied, stored once, or as their size says"},
     {"--texture-cache", "MB", "2048",
      "most memory for the texels of images; the finest levels are left out beyond it"},
+    {"--energy-compensation", "auto|on|off", "auto",
+     "add back what the facets of a rough lobe lose to each other; auto: where the look is not "
+     "LuxRender's own (metal2 with --compat yart)"},
     {"--isa", "NAME", "YAT_ISA, or the best here", "instruction set of the kernels"},
     {"--tree", "auto|kd", "the scene's",
      "tree over the triangles; auto: the fastest for them, kd: a strict kd-tree; the picture is "
@@ -126,6 +129,10 @@ constexpr std::array<std::pair<std::string_view, InstanceMode>, 3> kInstanceMode
     {{"auto", InstanceMode::kAuto},
      {"copy", InstanceMode::kCopy},
      {"share", InstanceMode::kShare}}};
+constexpr std::array<std::pair<std::string_view, EnergyCompensation>, 3> kCompensations = {
+    {{"auto", EnergyCompensation::kAuto},
+     {"on", EnergyCompensation::kOn},
+     {"off", EnergyCompensation::kOff}}};
 constexpr std::array<std::pair<std::string_view, ToneMap>, 9> kToneMaps = {
     {{"linear", ToneMap::kLinear},
      {"reinhard", ToneMap::kReinhard},
@@ -196,8 +203,8 @@ std::array<T, N> numbers(std::string_view option, std::string_view text, char se
 /// Text of every option as given; read into Arguments once all are known.
 struct Given {
   std::string spp, samples_range, time, threads, integrator, max_depth, sampler, sample_set, compat,
-      colour, seed, resolution, crop, instances, texture_cache, tree, tone_map, exposure, aov,
-      progress;
+      colour, seed, resolution, crop, instances, texture_cache, compensation, tree, tone_map,
+      exposure, aov, progress;
   bool verbose = false, quiet = false;
 };
 
@@ -252,6 +259,7 @@ void add_render(Adder& add, Arguments& arguments, Given& given) {
   add("--samples-range", given.samples_range);
   add("--time", given.time);
   add("--colour", given.colour);
+  add("--energy-compensation", given.compensation);
   add("--seed", given.seed);
   add("--tonemap", given.tone_map);
   add("--exposure", given.exposure);
@@ -355,6 +363,8 @@ void read_given(const Given& given, Arguments& to) {
     to.image_bytes = uint64_t(number<uint32_t>("--texture-cache", given.texture_cache,
                                                given.texture_cache, 1u, 8191u))
                      << 20;
+  if (!given.compensation.empty())
+    to.compensation = by_name("--energy-compensation", given.compensation, kCompensations);
   if (!given.tone_map.empty()) to.tone_map = by_name("--tonemap", given.tone_map, kToneMaps);
   if (!given.exposure.empty())
     to.exposure_stops = number<float>("--exposure", given.exposure, given.exposure, -100.f, 100.f);

@@ -62,6 +62,7 @@ struct Arguments {
   TreeChoice tree = TreeChoice::kFromScene;
   InstanceMode instances = InstanceMode::kAuto;
   uint64_t image_bytes = ImageStore::kDefaultLimit;  ///< --texture-cache
+  EnergyCompensation compensation = EnergyCompensation::kAuto;
   std::string isa;
   std::optional<ToneMap> tone_map;
   float exposure_stops = 0;

@@ -77,6 +77,10 @@ enum class InstanceMode {
   kCopy,   ///< every instance is a copy in the scene's own tables
   kShare,  ///< every object that can be is stored once
 };
+/// --energy-compensation: whether the light that facets of a rough lobe throw onto each other is
+/// added back. Only lobes that are not LuxRender's have a form with it: its own are what scenes
+/// were made for (docs/decisions.md).
+enum class EnergyCompensation { kAuto, kOn, kOff };  // kAuto: as kOn
 /// An object with more than one instance is stored once if it has this many triangles, from which
 /// on rays find it as soon as they find copies (docs/decisions.md), ...
 inline constexpr uint64_t kSharedTriangles = 1024;
@@ -94,6 +98,7 @@ struct CompileOptions {
   /// Direct light, mirrors and glass alone, or all light; empty: as SurfaceIntegrator says.
   std::optional<bool> direct_only;
   uint64_t image_bytes = ImageStore::kDefaultLimit;  ///< --texture-cache: most memory for texels
+  EnergyCompensation compensation = EnergyCompensation::kAuto;
 };
 
 /// The compiled scene: owns all columns.

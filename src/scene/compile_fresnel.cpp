@@ -249,6 +249,17 @@ IndexBands named_metal(MaterialCompiler& compiler, Parameters& p) {
   return *metal_preset("aluminium", compiler);
 }
 
+bool has_fresnel_texture(const MaterialCompiler& compiler, const Parameters& p) {
+  const Parameter* fresnel = parameter_named(p.plugin(), "fresnel");
+  const auto& textures = compiler.description().textures;
+  return fresnel && fresnel->type == ParameterType::kTexture &&
+         fresnel->texture < textures.size() && textures[fresnel->texture].kind == "fresnel";
+}
+
+double reflectance_head_on(double n, double k) {
+  return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k);
+}
+
 Fresnel fresnel_parameter(MaterialCompiler& compiler, Parameters& p) {
   const Description& description = compiler.description();
   const Parameter* fresnel = parameter_named(p.plugin(), "fresnel");

@@ -32,6 +32,10 @@ IndexBands named_metal(MaterialCompiler& compiler, Parameters& parameters);
 /// "fresnel" of metal2: a fresnel texture, a number (a dielectric's index), or a colour; "Kr" in
 /// its place is taken likewise (lxs 7.4). Otherwise a dielectric of index 5.
 Fresnel fresnel_parameter(MaterialCompiler& compiler, Parameters& parameters);
+/// Whether "fresnel" is a texture of the class fresnel.
+bool has_fresnel_texture(const MaterialCompiler& compiler, const Parameters& parameters);
+/// ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2).
+double reflectance_head_on(double n, double k);
 /// A fresnel texture whose index is wanted (volumes): n at the middle of the spectrum.
 double index_parameter(MaterialCompiler& compiler, Parameters& parameters, std::string_view name,
                        double fallback);

@@ -73,6 +73,13 @@ bool sees_volumes(std::string_view type) {
   return type.starts_with("glass") || type == "mix" || type == "doubleside" || type == "layered";
 }
 
+/// Whether its lobe may differ along the surface's axes.
+bool has_two_roughnesses(MaterialKind kind) {
+  const TexturedFields fields = material_traits(kind).textured;
+  return std::any_of(fields.begin(), fields.end(),
+                     [](const TexturedField& f) { return f.parameter == "vroughness"; });
+}
+
 }  // namespace
 
 glm::dvec3 MaterialCompiler::reflectance(Parameters& p, std::string_view name, double fallback) {
@@ -138,6 +145,15 @@ MaterialRef MaterialCompiler::bind_textures(Parameters& p, const MaterialRef& ma
                       "is used",
                       v.parameter, p.what()));
   }
+  // A lobe is the same all around where one texture gives both roughnesses.
+  const auto given_by = [&](std::string_view parameter) {
+    for (const TexturedField& field : material_traits(made.kind).textured)
+      for (const TexturePrograms::Binding& b : bindings)
+        if (field.parameter == parameter && field.field == b.field) return b.input;
+    return TextureGraph::Input{};
+  };
+  const bool brushed =
+      !(given_by("uroughness") == given_by("vroughness")) && has_two_roughnesses(made.kind);
   const TexturePrograms::Bump bump = read_bump(p);
   if (bindings.empty() && bump.input.node == kNone) return made;
   // The row that was made for it moves from the kind's table to the program's.
@@ -154,6 +170,7 @@ MaterialRef MaterialCompiler::bind_textures(Parameters& p, const MaterialRef& ma
   MaterialRef textured = made;
   textured.row = ref.row;
   textured.program = ref.program;
+  textured.tangents = made.tangents || brushed;
   textured.uv = std::max(made.uv, programs_.uv(ref.program));
   return textured;
 }

@@ -24,12 +24,13 @@ struct VolumesAround {
 /// Turns material entries into parameter rows, each once.
 class MaterialCompiler {
  public:
-  MaterialCompiler(const Description& description, const ColourModel& colour, uint64_t image_bytes,
-                   Diagnostics& diagnostics)
+  MaterialCompiler(const Description& description, const ColourModel& colour,
+                   const CompileOptions& options, Diagnostics& diagnostics)
       : description_(description),
         colour_(colour),
+        compensates_(options.compensation != EnergyCompensation::kOff),
         diagnostics_(diagnostics),
-        textures_(description, colour, diagnostics, image_bytes) {}
+        textures_(description, colour, diagnostics, options.image_bytes) {}
 
   /// entry: row of Description::materials, or kNone for the default matte. One material in several
   /// volumes is several rows if it looks at them.
@@ -89,6 +90,12 @@ class MaterialCompiler {
     return made;
   }
 
+  /// Whether rough lobes that are not LuxRender's get back what their facets lose to each other.
+  bool compensates() const { return compensates_; }
+  static MaterialForm form_of(const MaterialRef& material) {
+    return {material.kind, material.split, material.program};
+  }
+
   /// Of the shape that the material is built for.
   const VolumesAround& volumes() const { return volumes_; }
 
@@ -102,9 +109,6 @@ class MaterialCompiler {
 
  private:
   MaterialRef build(const Plugin& plugin);
-  static MaterialForm form_of(const MaterialRef& material) {
-    return {material.kind, material.split, material.program};
-  }
   uint32_t split_row(const MaterialSplit& split);
   uint32_t split_depth(const MaterialForm& form) const;
   MaterialRef build_plugin(const Plugin& plugin);
@@ -114,6 +118,7 @@ class MaterialCompiler {
 
   const Description& description_;
   const ColourModel& colour_;
+  bool compensates_;
   Diagnostics& diagnostics_;
   TextureCompiler textures_;
   TexturePrograms programs_;
@@ -127,11 +132,6 @@ class MaterialCompiler {
 
 /// Lambert (sigma 0) or Oren-Nayar. kd: linear Rec.709, 0..1; sigma in degrees, 0..90.
 MaterialRef add_matte(MaterialCompiler& compiler, const glm::dvec3& kd, double sigma_degrees);
-
-/// YART's metal2 (lxs 12.6). kr: reflectance head-on, linear Rec.709, 0..1; roughness: slope of the
-/// facets, 0..1; compensated: what they lose to each other is added back.
-MaterialRef add_cook_torrance(MaterialCompiler& compiler, const glm::dvec3& kr, double roughness,
-                              bool compensated);
 
 /// Thin film on a mirror or glass.
 struct Film {

@@ -31,21 +31,35 @@ MaterialRef add_index(MaterialCompiler& compiler, MaterialKind kind, const Index
              float(i.k[2]), rough.u, rough.v});
 }
 
+/// YART's metal2 (lxs 12.6): Cook and Torrance's model, of which YART's own sum of an energy-losing
+/// lobe and a fading diffuse part falls short. "fresnel" is its reflectance head-on.
+MaterialRef build_yart_metal2(MaterialCompiler& compiler, Parameters& p) {
+  const auto m = float(compiler.clamped(p, "uroughness", .001, 0, 1));
+  p.accept({"vroughness", "Kr"});  // YART reads neither
+  glm::vec3 kr;
+  if (has_fresnel_texture(compiler, p)) {
+    const Fresnel fresnel = fresnel_parameter(compiler, p);
+    if (const auto* colour = std::get_if<FresnelColour>(&fresnel)) {
+      kr = compiler.bands(colour->kr);
+    } else {
+      const IndexBands& index = std::get<IndexBands>(fresnel);
+      for (size_t b = 0; b < 3; ++b)
+        kr[int(b)] = float(reflectance_head_on(index.n[b], index.k[b]));
+    }
+  } else {
+    kr = compiler.reflectance_bands(p, "fresnel", .5);
+  }
+  if (compiler.compensates())
+    return compiler.add<CookTorranceParameters>(MaterialKind::kCookTorrance, {kr.x, kr.y, kr.z, m});
+  return compiler.add<CookTorranceSingleParameters>(MaterialKind::kCookTorranceSingle,
+                                                    {kr.x, kr.y, kr.z, m});
+}
+
 }  // namespace
 
 Film read_film(MaterialCompiler& compiler, Parameters& p) {
   const double thickness = compiler.clamped(p, "film", 0, 0, 1e6);
   return {float(thickness), float(compiler.clamped(p, "filmindex", 1.5, 1, 10))};
-}
-
-MaterialRef add_cook_torrance(MaterialCompiler& compiler, const glm::dvec3& kr, double roughness,
-                              bool compensated) {
-  const glm::vec3 c = compiler.bands(kr);
-  if (compensated)
-    return compiler.add<CookTorranceParameters>(MaterialKind::kCookTorrance,
-                                                {c.x, c.y, c.z, float(roughness)});
-  return compiler.add<CookTorranceSingleParameters>(MaterialKind::kCookTorranceSingle,
-                                                    {c.x, c.y, c.z, float(roughness)});
 }
 
 MaterialRef build_mirror(MaterialCompiler& compiler, Parameters& p) {
@@ -63,6 +77,7 @@ MaterialRef build_metal(MaterialCompiler& compiler, Parameters& p) {
 }
 
 MaterialRef build_metal2(MaterialCompiler& compiler, Parameters& p) {
+  if (compiler.description().dialect == Dialect::kYart) return build_yart_metal2(compiler, p);
   const Fresnel fresnel = fresnel_parameter(compiler, p);
   const Roughness rough = roughness(compiler, p);
   if (const auto* colour = std::get_if<FresnelColour>(&fresnel)) {

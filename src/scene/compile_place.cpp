@@ -34,7 +34,7 @@ ShapePlacer::ShapePlacer(const Description& description, const ColourModel& colo
       colour_(colour),
       mode_(options.instances),
       diagnostics_(diagnostics),
-      materials_(description, colour, options.image_bytes, diagnostics),
+      materials_(description, colour, options, diagnostics),
       shapes_(description.shapes.size()),
       area_lights_(description.area_lights.size()),
       members_(description.objects.size()) {}
