@@ -1,6 +1,7 @@
 // Surfaces, emission, lights, materials, accumulation, film.
 
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "film/film.h"
@@ -21,6 +22,25 @@ constexpr const char* kGeometryNames[] = {
 static_assert(std::size(kGeometryNames) == uint32_t(GeometryKind::kCount));
 constexpr const char* kLightNames[] = {"triangle", "sphere", "point", "distant", "mixed", "any"};
 static_assert(std::size(kLightNames) == kLightKernels);
+
+/// What a material is timed with: its rows in the room, or, where the room has none of it, matte's
+/// rows with all of its parameters at 1/2.
+struct MaterialInputs {
+  const ShadingRows* rows;  ///< null: matte has none either
+  ParameterView parameters;
+  bool sample_lights;
+  AlignedArray<uint32_t> words{};  ///< of made-up parameters
+
+  MaterialInputs(const KernelInputs& in, MaterialKind kind)
+      : rows(in.rows_of(kind)), parameters(in.view.parameters[uint32_t(kind)]) {
+    sample_lights = !material_traits(kind).delta;
+    if (rows) return;
+    rows = in.lit_rows();
+    words.resize(parameters_size(kind).row_words);
+    for (uint32_t i = 0; i < words.size(); ++i) words[i] = std::bit_cast<uint32_t>(.5f);
+    parameters = {words.data(), 1};
+  }
+};
 
 void add_surfaces(const KernelTable& table) {
   for (uint32_t kind = 0; kind < uint32_t(GeometryKind::kCount); ++kind) {
@@ -128,7 +148,8 @@ void add_shade(const KernelTable& table) {
     add_share_benchmarks(
         name, table, [&table, kernel, kind](benchmark::State& state, uint32_t share) {
           const KernelInputs& in = inputs_for(table, kAllLights);
-          const ShadingRows* rows = in.rows_of(MaterialKind(kind));
+          const MaterialInputs own(in, MaterialKind(kind));
+          const ShadingRows* rows = own.rows;
           if (!rows) return no_rows(state);
           Table<LightSample> lights(kRows);
           for (uint32_t i = 0; i < kRows; ++i) {
@@ -137,8 +158,8 @@ void add_shade(const KernelTable& table) {
             lights.set(i, light);
           }
           ShadeInput input{rows->surfaces.view(), rows->paths.view(), rows->randoms.view(),
-                           lights.view(), in.view.parameters[kind]};
-          if (!rows->sample_lights) input.lights = {};
+                           lights.view(), own.parameters};
+          if (!own.sample_lights) input.lights = {};
           Table<Ray> rays(kRows);
           Table<PathState> paths(kRows);
           Table<ShadowRay> shadow(kRows);
@@ -229,10 +250,10 @@ void add_bsdf_benchmarks(const KernelTable& table) {
       }
       add_benchmark(name, table, [&table, kernel, kind](benchmark::State& state) {
         const KernelInputs& in = inputs_for(table, kAllLights);
-        const ShadingRows* rows = in.lit_rows();
-        if (!rows || !in.view.parameters[kind].count) return no_rows(state);
-        const BsdfRows columns(*rows);
-        time_rows(state, kRows, [&] { kernel(in.view.parameters[kind], columns.batch, kRows); });
+        const MaterialInputs own(in, MaterialKind(kind));
+        if (!own.rows) return no_rows(state);
+        const BsdfRows columns(*in.lit_rows());
+        time_rows(state, kRows, [&] { kernel(own.parameters, columns.batch, kRows); });
       });
     }
 }

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "run_program.h"
+#include "scene/registry.h"
 
 namespace yat {
 namespace {
@@ -59,6 +61,27 @@ TEST_F(Benches, BuildTableHoldsWhatWasBuilt) {
   // The tree is the same for any number of threads.
   EXPECT_EQ(report["rows"][2]["sah_cost"], report["rows"][3]["sah_cost"]);
   EXPECT_NEAR(double(report["rows"][2]["triangles"]), 8000, 400);
+}
+
+TEST_F(Benches, EveryMaterialHasRows) {
+  const ProgramResult result = bench(
+      "bench_kernels", {"--benchmark_filter=^(shade|bsdf_.*)/[a-z_]*/[a-z0-9]*(/active:100)?/m",
+                        "--benchmark_min_time=0.00001", "--benchmark_format=json"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  std::map<std::string, int> rows;
+  const Json report = Json::parse(result.out);
+  for (const Json& row : report["benchmarks"]) {
+    const std::string name = row["name"];
+    EXPECT_FALSE(row.value("error_occurred", false)) << name << ": " << row;
+    EXPECT_GT(row["cpu_time"], 0) << name;
+    const size_t begin = name.find('/') + 1;
+    ++rows[name.substr(begin, name.find('/', begin) - begin)];
+  }
+  for (uint32_t kind = 0; kind < kMaterialKinds; ++kind) {
+    const MaterialTraits traits = material_traits(MaterialKind(kind));
+    if (traits.splits) continue;
+    EXPECT_GE(rows[std::string(traits.name)], 3) << traits.name << ": shade, evaluate, sample";
+  }
 }
 
 TEST_F(Benches, BuildAsGoogleBenchmark) {
