@@ -103,6 +103,9 @@ inline std::vector<Case<ScatterParameters>> cases(ScatterParameters<Value>) {
 }
 
 /// Not BSDFs: tests/test_split.cpp.
+inline std::vector<Case<CoatingParameters>> cases(CoatingParameters<Value>) {
+  return {};
+}
 inline std::vector<Case<MixParameters>> cases(MixParameters<Value>) {
   return {};
 }

@@ -218,14 +218,47 @@ TEST_F(CompileMaterials, CoatedWithSomethingToSay) {
       "scene.lxs:11:2: warning: no car paint \"bmw 339\" (did you mean \"bmw339\"?): \"ford f8\" "
       "is "
       "used");
+}
+
+TEST_F(CompileMaterials, CoatOverAnyMaterial) {
   const uint32_t base = material(plugin("mirror", {}));
   Parameter named = text("basematerial", "base");
   named.material = base;
-  const Scene scene = with(plugin("glossycoating", {named, number("index", 1.5f)}));
-  EXPECT_EQ(scene.bins[1].material, MaterialKind::kMirror);
+  const Scene scene = with(plugin(
+      "glossycoating", {named, number("index", 1.5f), color("Ks", 1, .5f, .5f), number("d", .5f)}));
+  EXPECT_EQ(scene.bins[1].material, MaterialKind::kCoating);
+  const MaterialSplit& split = scene.splits[scene.bins[1].split];
+  EXPECT_EQ(split.child[0].kind, MaterialKind::kGlossy);
+  EXPECT_EQ(split.child[1].kind, MaterialKind::kMirror);
+  const auto coat = row_of<CoatingParameters>(scene, MaterialKind::kCoating);
+  EXPECT_EQ(coat.index, 1.5f);
+  EXPECT_EQ(coat.ks_g, .5f);
+  EXPECT_EQ(coat.depth, .5f);
+  EXPECT_EQ(row_of<GlossyParameters>(scene, MaterialKind::kGlossy, coat.first).kd_r, 0);
+  EXPECT_SILENT();
+}
+
+TEST_F(CompileMaterials, CoatsThatAreLeftOut) {
+  Parameter named = text("basematerial", "base");
+  named.material = material(plugin("mirror", {}));
+  // One coat is enough.
+  named.material = material(plugin("glossycoating", {named}));
+  const Scene twice = with(plugin("glossycoating", {named}));
+  EXPECT_EQ(twice.bins[1].material, MaterialKind::kCoating);
+  EXPECT_EQ(twice.splits[twice.bins[1].split].child[1].kind, MaterialKind::kMirror);
   EXPECT_SAID(
       "scene.lxs:10:1: warning: material \"glossycoating\" shows its base \"base\" without the "
-      "coat");
+      "coat: it has a coat already");
+}
+
+TEST_F(CompileMaterials, NoCoatOverVeils) {
+  Parameter named = text("basematerial", "base");
+  named.material = material(plugin("glass", {flag("architectural", true)}));
+  EXPECT_EQ(with(plugin("glossycoating", {named})).bins[1].material,
+            MaterialKind::kArchitecturalGlass);
+  EXPECT_SAID(
+      "scene.lxs:10:1: warning: material \"glossycoating\" shows its base \"base\" without the "
+      "coat: it lets light pass unturned");
 }
 
 TEST_F(CompileMaterials, Unknown) {

@@ -63,6 +63,14 @@ std::string double_side(const std::string& name, const std::string& front, const
   return named(name, "[\"doubleside\"] \"string frontnamedmaterial\" [\"" + front +
                          "\"] \"string backnamedmaterial\" [\"" + back + "\"] " + more);
 }
+std::string pane(const std::string& name, double index, double kt) {
+  const std::string k = std::to_string(kt);
+  return named(name, "[\"glass\"] \"bool architectural\" [\"true\"] \"float index\" [" +
+                         std::to_string(index) + "] \"color Kt\" [" + k + " " + k + " " + k + "]");
+}
+std::string coating(const std::string& name, const std::string& base, const std::string& more) {
+  return named(name, "[\"glossycoating\"] \"string basematerial\" [\"" + base + "\"] " + more);
+}
 std::string use(const std::string& name) {
   return "NamedMaterial \"" + name + "\"\n";
 }
@@ -170,6 +178,20 @@ TEST_P(Split, PointLightThroughVeils) {
   EXPECT_EQ(see(text(use("half") + shelf("1") + use("black") + shelf("1.5")), 1, 1).mean.x, 0);
 }
 
+TEST_P(Split, PointLightThroughPanes) {
+  const std::string below = quad_text("-3 -3 1", "-3 3 1", "3 3 1", "3 -3 1");  // outside down
+  const auto text = [&](const std::string& panes) {
+    return view_text("2 -2 .3", "0 0 0", .02, 2, 2) + kBasics + pane("pane", 1.5, .5) +
+           mix("half", "black", "pane", .5) + use("grey") + shelf("0") + panes +
+           "LightSource \"point\" \"point from\" [0 0 2]\nWorldEnd\n";
+  };
+  // What the pane reflects is taken where light enters by the outside: 1 - F (1 + (1 - F)^2).
+  const double free = .5 / (4 * std::numbers::pi), enters = 1 - .04 * (1 + .96 * .96);
+  expect_red(text(use("pane") + shelf("1")), 1, 1, .5 * enters * free);
+  expect_red(text(use("pane") + below), 1, 1, .5 * free);
+  expect_red(text(use("half") + shelf("1.5") + use("pane") + below), 1, 1, .125 * enters * free);
+}
+
 TEST_P(Split, AreaLightThroughAVeilInClosedForm) {
   // As Renders.LitPlaneByLambertsFormula: E = .752274688 without the veil. Light sampling and
   // directions that find the lamp each bring a part: both must be weakened alike.
@@ -179,6 +201,12 @@ TEST_P(Split, AreaLightThroughAVeilInClosedForm) {
       "AttributeBegin\n" + light_text("1 1 1") +
       quad_text("-.5 -.5 1", "-.5 .5 1", ".5 .5 1", ".5 -.5 1") + "AttributeEnd\nWorldEnd\n";
   expect_red(text, 128, 1, .4 * .5 / std::numbers::pi * 0.752274688);
+  // The same by a pane that only tints, whose paths are chosen by its own sample().
+  const std::string tint = view_text("2 -2 .3", "0 0 0", .02, 2, 2) + kBasics +
+                           pane("tint", 1, .4) + text.substr(text.find(use("grey")));
+  std::string by_pane = tint;
+  by_pane.replace(by_pane.find(use("veil")), use("veil").size(), use("tint"));
+  expect_red(by_pane, 128, 1, .4 * .5 / std::numbers::pi * 0.752274688);
 }
 
 TEST_P(Split, EachCrossingDecidesAnew) {
@@ -191,7 +219,10 @@ TEST_P(Split, EachCrossingDecidesAnew) {
   const auto upright = [](const std::string& y) {
     return quad_text("-2 " + y + " -2", "2 " + y + " -2", "2 " + y + " 2", "-2 " + y + " 2");
   };
+  // Outwards light is not weakened; what is reflected, a fourth, comes from the dark.
+  const std::string strong = pane("strong", 3, 1) + use("strong");
   for (const uint32_t depth : {0u, 3u}) {
+    expect_red(text(strong + upright("0") + upright(".5") + upright("1")), 64, depth, 1);
     expect_red(text(use("half") + upright("0")), 64, depth, .5);
     expect_red(text(use("half") + upright("0") + upright(".5") + upright("1")), 256, depth, .125);
   }
@@ -267,6 +298,41 @@ TEST_P(Split, SidesHaveTheirMaterials) {
   EXPECT_NEAR(kd(nested(back), "nested", below).y, .6, 1e-5);
 }
 
+TEST_P(Split, ACoatOverMatteIsGlossy) {
+  const std::string coat =
+      "\"float index\" [1.7] \"color Ka\" [.3 .6 .9] \"float d\" [.5] \"float uroughness\" [.3] "
+      "\"float vroughness\" [.4]";
+  const std::string glossy = named("m", "[\"glossy\"] \"color Kd\" [.5 .5 .5] " + coat);
+  const auto seen = [&](const std::string& material, const std::string& floor) {
+    return see(view_text("2 -2 .8", "0 0 0", 6, 8, 8) + kBasics + material + use("m") + floor +
+                   use("black") + "AttributeBegin\n" + light_text("1 1 1") +
+                   quad_text("-1 1 1", "-1 2 1", "1 2 1", "1 1 1") + "AttributeEnd\nWorldEnd\n",
+               64, 1)
+        .red;
+  };
+  for (const std::string& floor : {shelf("0"), quad_text("-3 -3 0", "-3 3 0", "3 3 0", "3 -3 0")}) {
+    const Estimate a = seen(glossy, floor), b = seen(coating("m", "grey", coat), floor);
+    EXPECT_LE(std::fabs(a.mean - b.mean), 3.5 * std::hypot(a.error, b.error))
+        << a.mean << " +- " << a.error << " as glossy, " << b.mean << " +- " << b.error;
+    EXPECT_LE(std::hypot(a.error, b.error), .01 * a.mean) << "too noisy to say anything";
+  }
+}
+
+TEST_P(Split, ACoatKeepsWhatItTakesFromItsBase) {
+  // In a furnace a rough coat over white may not bring more than it gets; it loses little.
+  const std::string text = view_text("0 -1.5 0", "0 0 0", .01, 2, 2) + kBasics +
+                           named("white", "[\"matte\"] \"color Kd\" [1 1 1]") +
+                           coating("m", "white",
+                                   "\"float index\" [1.5] \"float uroughness\" [.2] "
+                                   "\"float vroughness\" [.2]") +
+                           "AttributeBegin\n" + light_text("1 1 1") + use("black") + room_text(3) +
+                           "AttributeEnd\n" + use("m") +
+                           quad_text("-2 0 -2", "2 0 -2", "2 0 2", "-2 0 2") + "WorldEnd\n";
+  const Estimate red = see(text, 256, 1).red;
+  EXPECT_LE(red.mean, 1 + 3.5 * red.error);
+  EXPECT_GE(red.mean, .95 - 3.5 * red.error);
+}
+
 TEST_P(Split, OneWayHolesForLight) {
   // A shelf with a hole on one side: light comes from above, shadow rays from below.
   const auto text = [](const std::string& front, const std::string& back) {
@@ -305,6 +371,33 @@ TEST_P(Split, PathsAgreeWithTheReference) {
     options.seed = 3;
     EXPECT_GT(agreement(scene, make_plan(scene, kernels(), options), 8, 1e-2), .97);
   }
+}
+
+TEST_P(Split, CoatsAndPanesAgreeWithTheReference) {
+  const std::string coat =
+      "\"color Ks\" [.3 .2 .1] \"color Ka\" [.3 .6 .9] \"float d\" [.3] "
+      "\"float uroughness\" [.3] \"float vroughness\" [.3]";
+  const std::string text =
+      view_text("0 -2.6 .3", "0 0 -.2", 50, 24, 16) + kBasics + pane("pane", 1.5, .8) +
+      named("metal", "[\"metal\"] \"float uroughness\" [.4] \"float vroughness\" [.4]") +
+      named("sheet", "[\"mattetranslucent\"] \"color Kr\" [.4 .3 .2] \"color Kt\" [.3 .5 .2]") +
+      mix("some", "red", "mirror", .4) + mix("dusty", "pane", "grey", .3) +
+      double_side("sides", "red", "green") + coating("over metal", "metal", coat) +
+      coating("over sheet", "sheet", coat) + coating("over some", "some", coat) +
+      coating("over sides", "sides", coat) + use("grey") + shelf("-1") + use("over metal") +
+      sphere_text("-.6 0 -.6", .35) + use("over some") + sphere_text("0 .2 -.6", .35) +
+      use("over sides") + sphere_text("0.7 0 -.6", .3) + use("over sheet") +
+      quad_text("-1 1 -1", "1 1 -1", "1 1 1", "-1 1 1") + use("dusty") +
+      quad_text("-1 -.5 .3", "1 -.5 .3", "1 .5 .5", "-1 .5 .5") + use("pane") +
+      quad_text("-.5 -1 -.9", ".3 -1 -.9", ".3 -1 -.4", "-.5 -1 -.4") + "AttributeBegin\n" +
+      light_text("9 8 7") + use("black") +
+      quad_text("-.4 -.4 1", "-.4 .4 1", ".4 .4 1", ".4 -.4 1") +
+      "AttributeEnd\nLightSource \"point\" \"point from\" [-.8 -.9 .8]\nWorldEnd\n";
+  const Scene scene = compile_text(text, kernels());
+  PlanOptions options;
+  options.max_depth = 5;
+  options.seed = 3;
+  EXPECT_GT(agreement(scene, make_plan(scene, kernels(), options), 8, 1e-2), .97);
 }
 
 TEST_P(Split, SameBitsForEveryBatch) {

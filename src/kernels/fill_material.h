@@ -22,7 +22,7 @@ void fill_material(KernelTable& table, MaterialKind kind, auto traits) {
       table.shade[k] = &shade_see_through<A>;
     else
       table.shade[k] =
-          &shade_scattering<A, Material, Record, t.delta, t.needs_lobe, t.needs_direction>;
+          &shade_scattering<A, Material, Record, t.delta, t.needs_lobe, t.needs_direction, t.veil>;
     table.bsdf_evaluate[k] = &bsdf_evaluate<A, Material, Record>;
     table.bsdf_sample[k] = &bsdf_sample<A, Material, Record>;
   }

@@ -2,7 +2,8 @@
 // Shading: direct light through the BSDF, and the next ray. One kernel per material.
 //
 // Order of decisions for a row at vertex `depth`:
-//   1. see-through materials: the path goes on behind the surface, whatever its depth.
+//   1. see-through materials: the path goes on behind the surface, whatever its depth. So do the
+//      samples of veils that pass; 3 to 6 are for the others.
 //   2. depth >= max_depth: the path ends (it came here for its emission).
 //   3. light sampling (not for delta materials): a shadow ray, if it can bring anything.
 //   4. the next direction; a path of no weight ends.
@@ -12,6 +13,7 @@
 // The throughput may be negative throughout (pixel filter with negative lobes): weights are judged
 // before they meet it.
 
+#include "kernels/coat.h"
 #include "kernels/drop.h"
 #include "kernels/material.h"
 #include "kernels/math.h"
@@ -119,10 +121,11 @@ YAT_INLINE void append_paths(const Vec3<A>& org, const Vec3<A>& dir, const PathS
 /// the light (power heuristic; lights without density count in full).
 template <class A, template <class> class Material, class Parameters>
 YAT_INLINE void append_shadow_rays(const LightSample<ConstColumn>& lights, uint32_t i,
-                                   const Vec3<A>& pos, const Float<A>& offset,
-                                   const ShadingFrame<A>& shading, const Parameters& parameters,
-                                   const PathStateW<A>& path, Mask<A> active, const uint32_t* pixel,
-                                   const uint32_t* sample, ShadeOutput& out, DropLog& log) {
+                                   const Coat<ConstColumn>& coats, const Vec3<A>& pos,
+                                   const Float<A>& offset, const ShadingFrame<A>& shading,
+                                   const Parameters& parameters, const PathStateW<A>& path,
+                                   Mask<A> active, const uint32_t* pixel, const uint32_t* sample,
+                                   ShadeOutput& out, DropLog& log) {
   const Float<A> zero(0.f), one(1.f);
   const LightSample<Lanes<A>::template Of> light = load<A>(lights, i);
   const Spectrum<A> arriving{light.weight_r, light.weight_g, light.weight_b};
@@ -136,8 +139,9 @@ YAT_INLINE void append_shadow_rays(const LightSample<ConstColumn>& lights, uint3
   active = active & !(geometric * wi_local.z <= zero);
   if (!any<A>(active)) return;
 
-  const Spectrum<A> f =
+  Spectrum<A> f =
       xsimd::abs(wi_local.z) * Material<A>::evaluate(parameters, shading.view, wi_local);
+  if (coats.outside) f = f * coat_passes<A>(coats, i, shading.view.wo, wi_local);
   const Float<A> scattered = Material<A>::pdf(parameters, shading.view, wi_local);
   const Float<A> share =
       xsimd::select(light.pdf > zero, power_heuristic<A>(light.pdf, scattered), one);
@@ -168,7 +172,7 @@ YAT_INLINE void append_shadow_rays(const LightSample<ConstColumn>& lights, uint3
 
 /// See KernelTable::shade: materials that scatter.
 template <class A, template <class> class Material, template <template <class> class> class Record,
-          bool kDelta, bool kNeedsLobe, bool kNeedsDirection>
+          bool kDelta, bool kNeedsLobe, bool kNeedsDirection, bool kVeil>
 void shade_scattering(const ShadeInput& in, const TransportOptions& options, ShadeOutput& out,
                       DropLog& log, uint32_t n) noexcept {
   const Float<A> zero(0.f), one(1.f);
@@ -178,7 +182,7 @@ void shade_scattering(const ShadeInput& in, const TransportOptions& options, Sha
     const uint32_t *pixel = in.paths.pixel + i, *sample = in.paths.sample + i;
     PathStateW<A> path = load<A>(in.paths, i);
     const UInt<A> vertex = path.depth & UInt<A>(0xffffu);
-    Mask<A> alive = present & mask_of<A>(vertex < UInt<A>(options.max_depth));
+    const Mask<A> scatters = present & mask_of<A>(vertex < UInt<A>(options.max_depth));
 
     const Vec3<A> pos{load<A>(in.surfaces.pos_x, i), load<A>(in.surfaces.pos_y, i),
                       load<A>(in.surfaces.pos_z, i)};
@@ -199,16 +203,27 @@ void shade_scattering(const ShadeInput& in, const TransportOptions& options, Sha
 
     if constexpr (!kDelta)
       if (sample_lights)
-        append_shadow_rays<A, Material>(in.lights, i, pos, offset, shading, parameters, path, alive,
-                                        pixel, sample, out, log);
+        append_shadow_rays<A, Material>(in.lights, i, in.coats, pos, offset, shading, parameters,
+                                        path, scatters, pixel, sample, out, log);
 
     const Float<A> lobe = kNeedsLobe ? load<A>(in.randoms.lobe, i) : zero;
     const Float<A> u = kNeedsDirection ? load<A>(in.randoms.bsdf_u, i) : zero;
     const Float<A> v = kNeedsDirection ? load<A>(in.randoms.bsdf_v, i) : zero;
-    const BsdfSample<A> next = Material<A>::sample(parameters, shading.view, lobe, u, v);
+    BsdfSample<A> next = Material<A>::sample(parameters, shading.view, lobe, u, v);
+    if (in.coats.outside)
+      next.weight = next.weight * coat_passes<A>(in.coats, i, shading.view.wo, next.wi);
     Vec3<A> wi = shading.frame.to_scene(next.wi);
     // Repeated reflection would let rounding pile up in the length.
     if constexpr (kDelta) wi = normalize(wi);
+    // Rows that go straight on, as through see-through surfaces.
+    Mask<A> alive = scatters, passes(false);
+    if constexpr (kVeil) {
+      passes = next.wi.z < zero;
+      wi = select(passes, -wo, wi);
+      alive = present & (scatters | passes);
+      drop_lanes<A>(alive, passes & mask_of<A>(path.depth >= UInt<A>(0xffff0000u)),
+                    DropCause::kCrossings, pixel, sample, log);
+    }
     const Float<A> geometric = dot(shading.ng, wi);
     drop_lanes<A>(alive, ~(is_finite_positive<A>(next.weight) & is_finite<A>(geometric)),
                   DropCause::kBsdf, pixel, sample, log);
@@ -218,7 +233,7 @@ void shade_scattering(const ShadeInput& in, const TransportOptions& options, Sha
     Spectrum<A> throughput =
         next.weight * Spectrum<A>{path.throughput_r, path.throughput_g, path.throughput_b};
     if (in.randoms.roulette) {
-      const Mask<A> plays = mask_of<A>(vertex >= UInt<A>(options.roulette_depth));
+      const Mask<A> plays = mask_of<A>(vertex >= UInt<A>(options.roulette_depth)) & !passes;
       if (any<A>(plays & alive)) {
         const Float<A> brightest = largest<A>(Spectrum<A>{
             xsimd::abs(throughput.r), xsimd::abs(throughput.g), xsimd::abs(throughput.b)});
@@ -231,6 +246,7 @@ void shade_scattering(const ShadeInput& in, const TransportOptions& options, Sha
     alive = alive & is_not_black<A>(throughput);
     drop_lanes<A>(alive, !is_finite<A>(throughput), DropCause::kOther, pixel, sample, log);
 
+    [[maybe_unused]] const PathStateW<A> before = path;
     path.throughput_r = throughput.r;
     path.throughput_g = throughput.g;
     path.throughput_b = throughput.b;
@@ -239,7 +255,14 @@ void shade_scattering(const ShadeInput& in, const TransportOptions& options, Sha
     UInt<A> next_vertex = vertex + UInt<A>(1u);
     if constexpr (!kDelta)
       next_vertex = xsimd::max(next_vertex, UInt<A>(options.least_depth_after_scatter));
-    path.depth = (path.depth & UInt<A>(0xffff0000u)) | next_vertex;
+    next_vertex = (path.depth & UInt<A>(0xffff0000u)) | next_vertex;
+    if constexpr (kVeil) {
+      // Density and distance stay those of the last vertex, from where shadow rays come too.
+      path.pdf = xsimd::select(passes, before.pdf, path.pdf);
+      path.passed = only<A>(passes, shading.view.distance);
+      next_vertex = select<A>(passes, before.depth + UInt<A>(0x10000u), next_vertex);
+    }
+    path.depth = next_vertex;
     append_paths<A>(spawn_point<A>(pos, offset, shading.ng, geometric > zero), wi, path, alive,
                     present, out);
   }

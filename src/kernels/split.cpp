@@ -5,6 +5,7 @@
 
 #include "kernels/fill_material.h"
 #include "kernels/groups.h"
+#include "kernels/materials/coating.h"
 #include "kernels/materials/double_side.h"
 #include "kernels/materials/mix.h"
 #include "kernels/materials/null.h"
@@ -17,6 +18,9 @@ void fill_split(KernelTable& table) {
   YAT_COMPOSITE_MATERIALS(YAT_FILL_MATERIAL)
   table.choose_child = &choose_child<A>;
   table.take_rows = &take_rows<A>;
+  table.coats = &coats<A, Coating, CoatingParameters>;
+  table.take_coats = &take_coats<A>;
+  table.weigh_child = &weigh_child<A>;
   table.start_veils = &start_veils<A>;
   table.share_weight = &share_weight<A>;
   table.pass_veils = &pass_veils<A>;

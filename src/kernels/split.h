@@ -6,33 +6,71 @@
 //
 // One number in [0, 1) decides: what it leaves decides inside the child. The estimate stays right:
 // light sampling and the next direction both belong to the child that was chosen, and their MIS
-// weights add up to one within it.
+// weights add up to one within it. The children of a coating are not shares of one whole: what
+// comes to them is divided by its chance, and what is below the coat is weakened by it (coat.h).
 
 #include "kernels/material.h"
 #include "kernels/shade.h"
 
 namespace yat::YAT_ISA {
 
-/// The side that a surface is seen from; `turned`: the other way round.
+/// How a surface is seen; `turned`: its outside is the other side.
 template <class A>
-YAT_INLINE Mask<A> seen_from_outside(const Surface<ConstColumn>& surfaces, uint32_t i,
-                                     bool turned) {
+YAT_INLINE BsdfView<A> view_of(const Surface<ConstColumn>& surfaces, uint32_t i, bool turned) {
+  const Float<A> side(turned ? -1.f : 1.f);
   const Vec3<A> ng{load<A>(surfaces.ng_x, i), load<A>(surfaces.ng_y, i), load<A>(surfaces.ng_z, i)};
+  const Vec3<A> ns{load<A>(surfaces.ns_x, i), load<A>(surfaces.ns_y, i), load<A>(surfaces.ns_z, i)};
   const Vec3<A> wo{load<A>(surfaces.wo_x, i), load<A>(surfaces.wo_y, i), load<A>(surfaces.wo_z, i)};
-  const Mask<A> outside = dot(ng, wo) > Float<A>(0.f);
-  return turned ? !outside : outside;
+  return ShadingFrame<A>::of(side * ng, side * ns, wo).view;
 }
 
 /// See KernelTable::split.
 template <class A, template <class> class Material, template <template <class> class> class Record>
-void split(const ParameterView& view, const Surface<ConstColumn>& surfaces, bool turned,
+void split(const ParameterView& table, const Surface<ConstColumn>& surfaces, bool turned,
            float* share, uint32_t* first, uint32_t* second, uint32_t n) noexcept {
   for (uint32_t i = 0; i < n; i += kLanes<A>) {
     const auto parameters = load_parameters<A, Record>(
-        view, only<A>(tail_mask<A>(i, n), load<A>(surfaces.parameter, i)), i);
-    store<A>(Material<A>::share(parameters, seen_from_outside<A>(surfaces, i, turned)), share, i);
+        table, only<A>(tail_mask<A>(i, n), load<A>(surfaces.parameter, i)), i);
+    store<A>(Material<A>::share(parameters, view_of<A>(surfaces, i, turned)), share, i);
     store<A>(parameters.first, first, i);
     store<A>(parameters.second, second, i);
+  }
+}
+
+/// See KernelTable::coats.
+template <class A, template <class> class Material, template <template <class> class> class Record>
+void coats(const ParameterView& table, const Surface<ConstColumn>& surfaces,
+           const Coat<Column>& out, uint32_t n) noexcept {
+  for (uint32_t i = 0; i < n; i += kLanes<A>) {
+    const auto parameters = load_parameters<A, Record>(
+        table, only<A>(tail_mask<A>(i, n), load<A>(surfaces.parameter, i)), i);
+    store<A>(Material<A>::coat(parameters, view_of<A>(surfaces, i, false).outside), out, i);
+  }
+}
+
+/// See KernelTable::take_coats.
+template <class A>
+void take_coats(const Coat<ConstColumn>& from, const uint32_t* order, const Coat<Column>& out,
+                uint32_t n) noexcept {
+  for (uint32_t row = 0; row < n; row += kLanes<A>) {
+    const Coat<Lanes<A>::template Of> c =
+        gather<A>(from, near_rows<A>(order, row, n - row < kLanes<A> ? n - row : kLanes<A>));
+    store<A>(c, out, row);
+  }
+}
+
+/// See KernelTable::weigh_child.
+template <class A>
+void weigh_child(const float* share, const uint32_t* order, uint32_t child,
+                 const PathState<Column>& paths, uint32_t n) noexcept {
+  const Float<A> one(1.f);
+  for (uint32_t row = 0; row < n; row += kLanes<A>) {
+    const Float<A> second =
+        gather<A>(share, near_rows<A>(order, row, n - row < kLanes<A> ? n - row : kLanes<A>));
+    const Float<A> weight = one / (child ? second : one - second);
+    store<A>(weight * load<A>(paths.throughput_r, row), paths.throughput_r, row);
+    store<A>(weight * load<A>(paths.throughput_g, row), paths.throughput_g, row);
+    store<A>(weight * load<A>(paths.throughput_b, row), paths.throughput_b, row);
   }
 }
 

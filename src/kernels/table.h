@@ -109,6 +109,7 @@ struct ShadeInput {
   LightSample<ConstColumn> lights;  ///< null columns: no light is sampled in this bin
   ParameterView parameters;
   Tangent<ConstColumn> tangents = {};  ///< null columns: materials see any frame about the normal
+  Coat<ConstColumn> coats = {};        ///< null columns: nothing lies over the material
 };
 
 enum class GeometryKind : uint32_t {
@@ -283,6 +284,16 @@ struct KernelTable {
   void (*take_rows)(const Surface<ConstColumn>&, const PathState<ConstColumn>&, const float* u,
                     const uint32_t* order, bool turned, const Surface<Column>&,
                     const PathState<Column>&, float* u_out, uint32_t n) noexcept;
+
+  /// The coats of a coating's rows.
+  void (*coats)(const ParameterView&, const Surface<ConstColumn>&, const Coat<Column>&,
+                uint32_t n) noexcept;
+  /// Rows order[0..n) of them, dense.
+  void (*take_coats)(const Coat<ConstColumn>&, const uint32_t* order, const Coat<Column>&,
+                     uint32_t n) noexcept;
+  /// Throughput of row i, which was order[i] and went to child 0 or 1, over the chance of that.
+  void (*weigh_child)(const float* share, const uint32_t* order, uint32_t child,
+                      const PathState<Column>&, uint32_t n) noexcept;
 
   // -- veils: shadow rays through what lets a part of the light pass (kernels/veil.h) -----------
   /// Packs the shadow rays that are free so far; returns their number.

@@ -66,19 +66,12 @@ void share_weight(const float* weight, const float* share, float* first, float* 
 template <class A, template <class> class Material, template <template <class> class> class Record>
 void veil(const ParameterView& table, const Surface<ConstColumn>& surfaces, bool turned,
           const float* weight, float* r, float* g, float* b, uint32_t n) noexcept {
-  const Float<A> side(turned ? -1.f : 1.f);
   for (uint32_t i = 0; i < n; i += kLanes<A>) {
     const auto parameters = load_parameters<A, Record>(
         table, only<A>(tail_mask<A>(i, n), load<A>(surfaces.parameter, i)), i);
-    const Vec3<A> ng{load<A>(surfaces.ng_x, i), load<A>(surfaces.ng_y, i),
-                     load<A>(surfaces.ng_z, i)};
-    const Vec3<A> ns{load<A>(surfaces.ns_x, i), load<A>(surfaces.ns_y, i),
-                     load<A>(surfaces.ns_z, i)};
-    const Vec3<A> wo{load<A>(surfaces.wo_x, i), load<A>(surfaces.wo_y, i),
-                     load<A>(surfaces.wo_z, i)};
-    const ShadingFrame<A> shading = ShadingFrame<A>::of(side * ng, side * ns, wo);
     const Spectrum<A> passed =
-        load<A>(weight, i) * Material<A>::transmittance(parameters, shading.view);
+        load<A>(weight, i) *
+        Material<A>::transmittance(parameters, view_of<A>(surfaces, i, turned));
     store<A>(load<A>(r, i) + passed.r, r, i);
     store<A>(load<A>(g, i) + passed.g, g, i);
     store<A>(load<A>(b, i) + passed.b, b, i);

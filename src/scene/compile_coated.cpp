@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "kernels/materials/car_paint.h"
+#include "kernels/materials/coating.h"
 #include "kernels/materials/glossy.h"
 #include "kernels/materials/glossy_lossy.h"
 #include "kernels/materials/glossy_single.h"
@@ -28,14 +29,14 @@ constexpr CoatNames kFront{"Ks", "Ka", "d", "index", "uroughness", "vroughness"}
 constexpr CoatNames kBack{"backface_Ks",    "backface_Ka",         "backface_d",
                           "backface_index", "backface_uroughness", "backface_vroughness"};
 
-struct Coat {
+struct CoatGiven {
   glm::vec3 ks, ka;
   float depth, index;
   Roughness rough;
 };
-Coat read_coat(MaterialCompiler& compiler, Parameters& p, const CoatNames& names, double ks,
-               double roughness, double least) {
-  Coat coat{};
+CoatGiven read_coat(MaterialCompiler& compiler, Parameters& p, const CoatNames& names, double ks,
+                    double roughness, double least) {
+  CoatGiven coat{};
   coat.ks = compiler.reflectance_bands(p, names.ks, ks);
   coat.ka = compiler.reflectance_bands(p, names.ka, 0);
   coat.depth = float(compiler.clamped(p, names.depth, 0, 0, 1e6));
@@ -59,7 +60,7 @@ void warn_old_roughness(Parameters& p) {
 MaterialRef build_glossy(MaterialCompiler& compiler, Parameters& p) {
   const glm::vec3 kd = compiler.reflectance_bands(p, "Kd", 1);
   const bool separable = p.flag("separable", true);
-  const Coat c = read_coat(compiler, p, kFront, 1, .1, separable ? 1e-6 : .006);
+  const CoatGiven c = read_coat(compiler, p, kFront, 1, .1, separable ? 1e-6 : .006);
   const float multibounce = flag_of(p, "multibounce", false);
   const auto sigma = float(compiler.clamped(p, "sigma", 0, 0, 90));
   if (separable)
@@ -74,22 +75,34 @@ MaterialRef build_glossy(MaterialCompiler& compiler, Parameters& p) {
                                     c.ka.z, c.depth, c.index, c.rough.u, c.rough.v, multibounce});
 }
 
-/// The coat is left out.
 MaterialRef build_glossycoating(MaterialCompiler& compiler, Parameters& p) {
   const auto base = compiler.child(p, "basematerial");
-  p.accept({"Ks", "Ka", "index", "d", "uroughness", "vroughness", "multibounce"});
+  const CoatGiven c = read_coat(compiler, p, kFront, 1, .1, 1e-6);
+  const float multibounce = flag_of(p, "multibounce", false);
   if (!base) return add_matte(compiler, glm::dvec3(.9), 0);
-  p.diagnostics().warning(p.plugin().loc,
-                          fmt::format("material \"glossycoating\" shows its base \"{}\" without "
-                                      "the coat",
-                                      p.text("basematerial", "")),
-                          "material \"glossycoating\" shows its base without the coat");
-  return *base;
+  const bool passes = base->passing != Passing::kSolid;
+  if (passes || compiler.has_coating(MaterialCompiler::form_of(*base))) {
+    const std::string_view reason =
+        passes ? "it lets light pass unturned" : "it has a coat already";
+    p.diagnostics().warning(p.plugin().loc,
+                            fmt::format("material \"glossycoating\" shows its base \"{}\" without "
+                                        "the coat: {}",
+                                        p.text("basematerial", ""), reason),
+                            "material \"glossycoating\" shows its base without the coat");
+    return *base;
+  }
+  const MaterialRef lobe = compiler.add_rough<GlossyParameters>(
+      MaterialKind::kGlossy, {0, 0, 0, c.ks.x, c.ks.y, c.ks.z, c.ka.x, c.ka.y, c.ka.z, c.depth,
+                              c.index, c.rough.u, c.rough.v, 0, multibounce});
+  return compiler.add_split<CoatingParameters>(
+      MaterialKind::kCoating,
+      {c.ks.x, c.ks.y, c.ks.z, c.ka.x, c.ka.y, c.ka.z, c.depth, c.index, lobe.row, base->row}, lobe,
+      *base, false, false);
 }
 
 MaterialRef build_glossy_lossy(MaterialCompiler& compiler, Parameters& p) {
   const glm::vec3 kd = compiler.reflectance_bands(p, "Kd", 1);
-  const Coat c = read_coat(compiler, p, kFront, 1, .1, 0);
+  const CoatGiven c = read_coat(compiler, p, kFront, 1, .1, 0);
   warn_old_roughness(p);
   return compiler.add_rough<GlossyLossyParameters>(
       MaterialKind::kGlossyLossy, {kd.x, kd.y, kd.z, c.ks.x, c.ks.y, c.ks.z, c.ka.x, c.ka.y, c.ka.z,
@@ -99,11 +112,11 @@ MaterialRef build_glossy_lossy(MaterialCompiler& compiler, Parameters& p) {
 MaterialRef build_glossytranslucent(MaterialCompiler& compiler, Parameters& p) {
   const glm::vec3 kd = compiler.reflectance_bands(p, "Kd", 1);
   const glm::vec3 kt = compiler.reflectance_bands(p, "Kt", 1);
-  const Coat front = read_coat(compiler, p, kFront, 1, .1, .006);
+  const CoatGiven front = read_coat(compiler, p, kFront, 1, .1, .006);
   const float front_bounce = flag_of(p, "multibounce", false);
   // Both sides have the front's coat where it is called one-sided.
   const bool same = p.flag("onesided", true);
-  Coat back = front;
+  CoatGiven back = front;
   float back_bounce = front_bounce;
   if (same) {
     p.accept({"backface_Ks", "backface_Ka", "backface_d", "backface_index", "backface_uroughness",

@@ -45,17 +45,6 @@ MaterialRef add_glass(MaterialCompiler& compiler, const glm::vec3& kr, const glm
                                        {kr.x, kr.y, kr.z, kt.x, kt.y, kt.z, float(index)});
 }
 
-/// The option "architectural".
-bool is_architectural(Parameters& p) {
-  const bool is = p.flag("architectural", false);
-  if (is)
-    p.diagnostics().note(
-        p.loc("architectural"),
-        "architectural glass: paths go straight through it, shadow rays not yet; lamps behind it "
-        "are found by chance only");
-  return is;
-}
-
 /// Parameters of smooth glass.
 struct GlassColours {
   glm::vec3 kr, kt;  ///< bands
@@ -124,7 +113,7 @@ glm::dvec3 volume_absorption(MaterialCompiler& compiler, uint32_t volume) {
 MaterialRef add_smooth(MaterialCompiler& compiler, Parameters& p, const GlassColours& c) {
   const auto& [kr, kt, index, film] = c;
   const glm::dvec3 sigma = volume_absorption(compiler, compiler.volumes().interior);
-  const bool absorbs = sigma != glm::dvec3(0.), architectural = is_architectural(p);
+  const bool absorbs = sigma != glm::dvec3(0.), architectural = p.flag("architectural", false);
   if (absorbs && (architectural || film.thickness > 0))
     compiler.diagnostics().warning(p.plugin().loc,
                                    "glass that is architectural or has a thin film: the "

@@ -70,7 +70,8 @@ void accept_common(Parameters& p) {
 
 /// Whether what the material becomes depends on the volumes around its shape.
 bool sees_volumes(std::string_view type) {
-  return type.starts_with("glass") || type == "mix" || type == "doubleside" || type == "layered";
+  return type.starts_with("glass") || type == "mix" || type == "doubleside" || type == "layered" ||
+         type == "glossycoating";
 }
 
 /// Whether its lobe may differ along the surface's axes.
@@ -277,6 +278,13 @@ uint32_t MaterialCompiler::split_depth(const MaterialForm& form) const {
   if (form.split == kNone) return 0;
   const MaterialSplit& split = splits_[form.split];
   return 1 + std::max(split_depth(split.child[0]), split_depth(split.child[1]));
+}
+
+bool MaterialCompiler::has_coating(const MaterialForm& form) const {
+  if (form.split == kNone) return false;
+  const MaterialSplit& split = splits_[form.split];
+  return form.kind == MaterialKind::kCoating || has_coating(split.child[0]) ||
+         has_coating(split.child[1]);
 }
 
 void MaterialCompiler::finish(Scene& scene) {

@@ -95,6 +95,8 @@ class MaterialCompiler {
   static MaterialForm form_of(const MaterialRef& material) {
     return {material.kind, material.split, material.program};
   }
+  /// Whether there is a coating in what the material is made of.
+  bool has_coating(const MaterialForm& form) const;
 
   /// Of the shape that the material is built for.
   const VolumesAround& volumes() const { return volumes_; }

@@ -54,6 +54,7 @@
 #define YAT_COMPOSITE_MATERIALS(YAT_MATERIAL) \
   YAT_MATERIAL(mix,               Mix)              \
   YAT_MATERIAL(double_side,       DoubleSide)       \
+  YAT_MATERIAL(coating,           Coating)          \
   YAT_MATERIAL(null,              Null)
 
 #define YAT_MATERIALS(YAT_MATERIAL) \
@@ -148,7 +149,8 @@ struct MaterialTraits {
   /// functions of a BSDF (kernels/split.h).
   bool splits = false;
   /// Lets a part of the light pass unturned: it has transmittance(parameters, view), by which
-  /// shadow rays are weakened, and its paths go on as through see-through surfaces.
+  /// shadow rays are weakened, and samples with wi.z < 0 go straight on, as through see-through
+  /// surfaces. Its lobe is decided by Dimension::kChild, anew at every crossing.
   bool veil = false;
   TexturedFields textured = {};  ///< what textures may give
 };

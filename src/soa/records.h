@@ -84,6 +84,16 @@ struct Tangent {
 };
 static_assert(all_fields_listed<Tangent>);
 
+/// A coat over the material of a Surface row (kernels/coat.h). Only there below coatings.
+template <template <class> class Of>
+struct Coat {
+  Of<float> r0_r, r0_g, r0_b;                 ///< reflectance head-on, 0..1
+  Of<float> absorbs_r, absorbs_g, absorbs_b;  ///< optical thickness head-on, >= 0
+  Of<uint32_t> outside;                       ///< 1: seen from the side of the coat; 0: from behind
+  YAT_FIELDS(r0_r, r0_g, r0_b, absorbs_r, absorbs_g, absorbs_b, outside)
+};
+static_assert(all_fields_listed<Coat>);
+
 /// Random numbers of one bounce, each in [0, 1). Columns that a plan does not need stay null.
 template <template <class> class Of>
 struct Randoms {

@@ -57,6 +57,7 @@ void need_material(const ShadePlan& plan, const KernelTable& k) {
     need(k.split[uint32_t(plan.material)], k, "split");
   else
     need(k.shade[uint32_t(plan.material)], k, "shade");
+  if (plan.coats) need(k.coats && k.take_coats && k.weigh_child, k, "coats");
   if (plan.program != kNone) need(k.spread_parameters && k.make_derivatives, k, "textures");
 }
 
@@ -133,6 +134,7 @@ ShadePlan plan_material(const Scene& scene, const MaterialForm& form, bool roule
   out.program = form.program;
   const MaterialTraits traits = material_traits(form.kind);
   out.splits = traits.splits;
+  out.coats = form.kind == MaterialKind::kCoating;
   if (out.splits) {
     const MaterialSplit& split = scene.splits[form.split];
     plan.split_levels = std::max(plan.split_levels, level);
@@ -144,6 +146,7 @@ ShadePlan plan_material(const Scene& scene, const MaterialForm& form, bool roule
     }
     return out;
   }
+  out.veil = traits.veil;
   out.sample_lights = plan.lights && !traits.delta && !traits.see_through;
   out.draw_choice = out.sample_lights && scene.lights.size() > 1;
   out.draw_lobe = traits.needs_lobe;

@@ -57,7 +57,7 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
                             .first;
     const double width = footprint(scene, glm::length(hit->position - scattered_at), scattered_pdf,
                                    std::fabs(glm::dot(hit->ng, wo)));
-    const ChosenMaterial chosen = choose_material(scene, *hit, width, met_outside, child);
+    const ChosenMaterial chosen = choose_material(scene, *hit, wo, width, child);
     const MaterialKind material = chosen.kind;
 
     if (const double cos = glm::dot(hit->ng, wo); hit->light != kNone && cos > 0) {
@@ -74,7 +74,8 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
       ++crossed;
       continue;
     }
-    if (vertex >= options.max_depth) break;
+    const bool veil = material_traits(material).veil;
+    if (vertex >= options.max_depth && !veil) break;
 
     if (scene.bins[hit->bin].program != chosen.program || chosen.row != hit->parameter)
       bend_normal(scene, scene.bins[hit->bin].program, hit->parameter, *hit, width);
@@ -87,6 +88,10 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
     const Bsdf bsdf(material,
                     material_parameters(scene, material, chosen.program, chosen.row, *hit, width),
                     {axes.to_local(wo), outside, hit->t + passed});
+    throughput *= chosen.weight;
+    const auto coat = [&](const Vec& wi) {
+      return chosen.coat ? chosen.coat->passes(axes.to_local(wo), wi) : Vec(1.0);
+    };
     const auto leave = [&](const Vec& wi) {
       return hit->position + (glm::dot(ng, wi) > 0 ? 1.0 : -1.0) * hit->offset * ng;
     };
@@ -98,19 +103,30 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
       const Vec wi = axes.to_local(light.wi);
       if (!black(light.arriving) && glm::dot(ng, light.wi) * wi.z > 0) {
         const double weight = light.pdf > 0 ? power_heuristic(light.pdf, bsdf.pdf(wi)) : 1;
-        const Vec add = throughput * bsdf.evaluate(wi) * std::fabs(wi.z) * light.arriving * weight;
+        const Vec add =
+            throughput * bsdf.evaluate(wi) * coat(wi) * std::fabs(wi.z) * light.arriving * weight;
         if (!black(add) && !occluded(scene, leave(light.wi), light.to))
           radiance += add * through_veils(scene, leave(light.wi), light.to);
       }
     }
 
     const auto [u, v] = random(Dimension::kBsdf);
-    const Bounce bounce =
-        bsdf.sample(double(random(Dimension::kChoice).second), double(u), double(v));
+    const float lobe = veil ? random_pair(plan.sampler, plan.draw_key(), Dimension::kChild, pixel,
+                                          sample, crossed << 16 | vertex)
+                                  .second
+                            : random(Dimension::kChoice).second;
+    const Bounce bounce = bsdf.sample(double(lobe), double(u), double(v));
     const Vec wi = axes.to_scene(bounce.wi);
     if (!(glm::dot(ng, wi) * bounce.wi.z > 0)) break;
-    throughput *= bounce.weight;
+    throughput *= bounce.weight * coat(bounce.wi);
     if (black(throughput)) break;
+    if (veil && bounce.wi.z < 0) {
+      ray = {leave(ray.direction), ray.direction, double(kRayFar)};
+      passed += hit->t;
+      ++crossed;
+      continue;
+    }
+    if (vertex >= options.max_depth) break;
     if (vertex >= options.roulette_depth) {
       const double chance = std::min(
           1.0,

@@ -48,6 +48,9 @@ Bounce sample(const AbsorbingGlassParameters<Value>&, const LocalView&, double l
 Bounce sample(const ArchitecturalGlassParameters<Value>&, const LocalView&, double lobe, double,
               double);
 
+/// What architectural glass lets pass, seen at this cosine of the shading normal.
+Vec transmittance(const ArchitecturalGlassParameters<Value>&, double cos, bool outside);
+
 // reference_diffuse.cpp
 #define YAT_REFERENCE(Type)                                                      \
   Vec evaluate(const Type##Parameters<Value>&, const LocalView&, const Vec& wi); \

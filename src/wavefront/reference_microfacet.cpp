@@ -205,16 +205,28 @@ Bounce sample(const AbsorbingGlassParameters<Value>& p, const LocalView& view, d
   return bounce;
 }
 
+namespace {
+
+double pane_fresnel(const ArchitecturalGlassParameters<Value>& p, double cos) {
+  const double n = double(p.index), sin2 = (1 - cos * cos) / (n * n);
+  return dielectric(cos, std::sqrt(std::fmax(1 - sin2, 0)), 1, n);
+}
+
+}  // namespace
+
+Vec transmittance(const ArchitecturalGlassParameters<Value>& p, double cos, bool outside) {
+  const double f = pane_fresnel(p, cos);
+  return (outside ? 1 : 1 - f * (1 + (1 - f) * (1 - f))) * Vec(p.kt_r, p.kt_g, p.kt_b);
+}
+
 Bounce sample(const ArchitecturalGlassParameters<Value>& p, const LocalView& view, double lobe,
               double, double) {
   const Vec& wo = view.wo;
-  const double n = double(p.index), sin2 = (1 - wo.z * wo.z) / (n * n);
-  const double f = dielectric(wo.z, std::sqrt(std::fmax(1 - sin2, 0)), 1, n);
+  const double f = pane_fresnel(p, wo.z);
   const Vec reflection =
       view.outside ? f * film_factor(p.film, p.filmindex, wo.z) * Vec(p.kr_r, p.kr_g, p.kr_b)
                    : Vec(0.0);
-  const Vec through =
-      (view.outside ? 1 : 1 - f * (1 + (1 - f) * (1 - f))) * Vec(p.kt_r, p.kt_g, p.kt_b);
+  const Vec through = transmittance(p, wo.z, view.outside);
   const double total = largest(reflection) + largest(through);
   if (total == 0) return {-wo, Vec(0.0), 0};
   const double chance = largest(reflection) / total;

@@ -115,15 +115,25 @@ class Bsdf {
   LocalView view_;
 };
 
+/// A coat over a material (lxs 7.3).
+struct CoatOver {
+  Vec r0, absorbs;  ///< reflectance and optical thickness head-on
+  bool outside;     ///< seen from its side
+  /// f over that of the bare material; local directions.
+  Vec passes(const Vec& wo, const Vec& wi) const;
+};
+
 /// What a bin's material is at a point: one of its children, if it is made of others.
 struct ChosenMaterial {
   MaterialKind kind;
   uint32_t program;  ///< row of Scene::programs, or kNone
   uint32_t row;
-  bool turned;  ///< its outside is the surface's inside
+  bool turned;        ///< its outside is the surface's inside
+  double weight = 1;  ///< of what it brings
+  std::optional<CoatOver> coat = {};
 };
-/// u in [0, 1) decides.
-ChosenMaterial choose_material(const Scene& scene, const Point& point, double width, bool outside,
+/// u in [0, 1) decides; wo in the scene.
+ChosenMaterial choose_material(const Scene& scene, const Point& point, const Vec& wo, double width,
                                float u);
 
 // ---- Lights ------------------------------------------------------------------------------------

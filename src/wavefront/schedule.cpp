@@ -190,6 +190,7 @@ void Worker::shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end) {
                  .bendable = batch_.surfaces.columns(),
                  .paths = batch_.chunk_paths.view(),
                  .tangents = {},
+                 .coats = {},
                  .slots = batch_.chunk_paths.columns().slot,
                  .geometry = bin.bin.geometry,
                  .order = batch_.order.data() + begin,
@@ -261,7 +262,10 @@ void Worker::shade_rows(const ShadePlan& plan, const ChunkRows& rows) {
     drawn.light_u = randoms.light_u;
     drawn.light_v = randoms.light_v;
   }
-  if (plan.draw_choice || plan.draw_lobe)
+  // The first number of kChild may have chosen this material among others.
+  if (plan.veil)
+    draw(Dimension::kChild, rows.paths, randoms.light_choice, randoms.lobe, n);
+  else if (plan.draw_choice || plan.draw_lobe)
     draw(Dimension::kChoice, rows.paths, randoms.light_choice,
          plan.draw_lobe ? randoms.lobe : nullptr, n);
   if (plan.draw_choice) drawn.light_choice = randoms.light_choice;
@@ -289,8 +293,8 @@ void Worker::shade_rows(const ShadePlan& plan, const ChunkRows& rows) {
   clock_.enter(Stage::kShade, n);
   const uint32_t first_path = out_.path_count;
   kernels_.shade[uint32_t(plan.material)](
-      {rows.surfaces, rows.paths, drawn, lights, parameters, rows.tangents}, plan_.transport, out_,
-      counted_.drops, n);
+      {rows.surfaces, rows.paths, drawn, lights, parameters, rows.tangents, rows.coats},
+      plan_.transport, out_, counted_.drops, n);
   if (features_.active())
     features_.record_albedo(out_.paths, batch_.sums.columns(), first_path, out_.path_count);
   count(Stage::kShade, n);
@@ -305,6 +309,7 @@ void Worker::shade_split(const ShadePlan& plan, const ChunkRows& rows, const flo
                                           split.parameter[0].data(), split.parameter[1].data(),
                                           rows.n);
   kernels_.choose_child(split.share.data(), u, split.child.data(), split.left.data(), rows.n);
+  if (plan.coats) kernels_.coats(parameters, rows.surfaces, split.own_coats.columns(), rows.n);
   uint32_t taken[2] = {};
   for (uint32_t i = 0; i < rows.n; ++i) {
     const uint32_t c = split.child[i];
@@ -324,11 +329,20 @@ void Worker::shade_split(const ShadePlan& plan, const ChunkRows& rows, const flo
                   .bendable = split.surfaces.columns(),
                   .paths = split.paths.view(),
                   .tangents = {},
+                  .coats = {},
                   .slots = split.paths.columns().slot,
                   .geometry = rows.geometry,
                   .order = nullptr,
                   .instance = rows.instance,
                   .n = taken[c]};
+    if (plan.coats)
+      kernels_.weigh_child(split.share.data(), split.order[c].data(), c, split.paths.columns(),
+                           taken[c]);
+    const Coat<ConstColumn> over = plan.coats && c ? split.own_coats.view() : rows.coats;
+    if (over.outside) {
+      kernels_.take_coats(over, split.order[c].data(), split.coats.columns(), taken[c]);
+      own.coats = split.coats.view();
+    }
     if (rows.instance) {
       for (uint32_t i = 0; i < taken[c]; ++i) split.hit[i] = rows.order[split.order[c][i]];
       own.order = split.hit.data();

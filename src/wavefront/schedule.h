@@ -90,6 +90,7 @@ class Worker {
     Surface<Column> bendable;  ///< the same, for bump maps
     PathState<ConstColumn> paths;
     Tangent<ConstColumn> tangents;  ///< null columns where no material needs them
+    Coat<ConstColumn> coats;        ///< null columns where nothing lies over the material
     uint32_t* slots;                ///< those of `paths`, to be changed
     GeometryKind geometry;
     const uint32_t* order;     ///< rows of the hits; for instances only

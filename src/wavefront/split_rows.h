@@ -17,9 +17,11 @@ struct SplitRows {
   Table<Surface> surfaces{kChunkRows};  ///< of one child, dense
   Table<PathState> paths{kChunkRows};
   Table<Tangent> tangents{kChunkRows};
+  Table<Coat> coats{kChunkRows};
   AlignedArray<float> u{kChunkRows};       ///< of one child: the number that decides inside it
   AlignedArray<uint32_t> hit{kChunkRows};  ///< of one child: rows of the hits, of instances
   // Of the parent's rows:
+  Table<Coat> own_coats{kChunkRows};
   AlignedArray<float> share{kChunkRows}, left{kChunkRows};
   AlignedArray<uint32_t> child{kChunkRows};
   // Per child:
@@ -31,8 +33,9 @@ struct SplitRows {
   AlignedArray<float> weight[2]{AlignedArray<float>(kChunkRows), AlignedArray<float>(kChunkRows)};
 
   size_t bytes() const {
-    size_t sum = surfaces.bytes() + paths.bytes() + tangents.bytes() + u.bytes() + hit.bytes() +
-                 share.bytes() + left.bytes() + child.bytes();
+    size_t sum = surfaces.bytes() + paths.bytes() + tangents.bytes() + coats.bytes() +
+                 own_coats.bytes() + u.bytes() + hit.bytes() + share.bytes() + left.bytes() +
+                 child.bytes();
     for (int c = 0; c < 2; ++c) sum += parameter[c].bytes() + order[c].bytes() + weight[c].bytes();
     return sum;
   }

@@ -5,6 +5,7 @@
 #include "kernels/materials/absorbing_glass.h"
 #include "kernels/materials/architectural_glass.h"
 #include "kernels/materials/car_paint.h"
+#include "kernels/materials/coating.h"
 #include "kernels/materials/cook_torrance.h"
 #include "kernels/materials/double_side.h"
 #include "kernels/materials/glass.h"

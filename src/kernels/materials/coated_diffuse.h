@@ -10,8 +10,7 @@
 #include "kernels/materials/rough_diffuse.h"
 
 #if defined(YAT_ISA)
-#include "kernels/exponential.h"
-#include "kernels/materials/fresnel.h"
+#include "kernels/coat.h"
 #include "kernels/materials/microfacet.h"
 
 namespace yat::YAT_ISA {
@@ -22,24 +21,6 @@ YAT_INLINE Spectrum<A> coat_reflectance(const Spectrum<A>& ks, const Float<A>& i
   const Float<A> one(1.f), zero(0.f);
   const Float<A> root = (index - one) / (index + one);
   return xsimd::select(index > zero, root * root, one) * ks;
-}
-template <class A>
-YAT_INLINE Spectrum<A> coat_fresnel(const Spectrum<A>& r0, const Float<A>& cos) {
-  return {fresnel_schlick<A>(r0.r, cos), fresnel_schlick<A>(r0.g, cos),
-          fresnel_schlick<A>(r0.b, cos)};
-}
-/// exp(-Ka d way), way the sum of the inverse cosines.
-template <class A>
-YAT_INLINE Spectrum<A> coat_absorption(const Spectrum<A>& ka, const Float<A>& depth,
-                                       const Float<A>& way) {
-  // Edge-on no light is left where anything absorbs, and all where nothing does.
-  const Float<A> path = -(depth * xsimd::min(way, Float<A>(1e30f)));
-  return {exponential<A>(path * ka.r), exponential<A>(path * ka.g), exponential<A>(path * ka.b)};
-}
-template <class A>
-YAT_INLINE Spectrum<A> one_minus(const Spectrum<A>& c) {
-  const Float<A> one(1.f);
-  return {one - c.r, one - c.g, one - c.b};
 }
 /// The light between the facets of a coat: min((1 - G(o) G(i)) / (4 spread cos_o cos_i), 1).
 template <class A>

@@ -26,8 +26,8 @@ namespace YAT_ISA {
 template <class A>
 struct DoubleSide {
   using Parameters = DoubleSideParameters<Lanes<A>::template Of>;
-  static YAT_INLINE Float<A> share(const Parameters&, const Mask<A>& outside) {
-    return xsimd::select(outside, Float<A>(0.f), Float<A>(1.f));
+  static YAT_INLINE Float<A> share(const Parameters&, const BsdfView<A>& view) {
+    return xsimd::select(view.outside, Float<A>(0.f), Float<A>(1.f));
   }
 };
 

@@ -30,7 +30,7 @@ namespace YAT_ISA {
 template <class A>
 struct Mix {
   using Parameters = MixParameters<Lanes<A>::template Of>;
-  static YAT_INLINE Float<A> share(const Parameters& p, const Mask<A>&) {
+  static YAT_INLINE Float<A> share(const Parameters& p, const BsdfView<A>&) {
     return xsimd::min(xsimd::max(p.amount, Float<A>(0.f)), Float<A>(1.f));
   }
 };
