@@ -54,6 +54,7 @@ void compile(const Arguments& arguments, const KernelTable& kernels, ThreadPool&
     for (size_t i = 0; i < 4; ++i) options.crop[i] = (*arguments.crop)[i];
     options.crop_given = true;
   }
+  options.image_bytes = arguments.image_bytes;
   options.instances = arguments.instances;
   options.image_bytes = arguments.image_bytes;
   options.compensation = arguments.compensation;
