@@ -334,6 +334,7 @@ std::unique_ptr<KernelInputs> record(const KernelTable& kernels, const std::stri
   CompileOptions options;
   options.block_width = kernels.lanes;
   options.instances = InstanceMode::kShare;
+  options.light_choice = LightChoosing::kPower;  // Rows of each kind of light.
   in->scene =
       compile_scene(parse_scene(text, "bench room", ".", diagnostics), options, pool, diagnostics);
   in->view = in->scene.view();

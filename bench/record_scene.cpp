@@ -242,7 +242,8 @@ Recording record_scene(const std::string& path, const KernelTable& kernels,
                        const RecordOptions& options, Diagnostics& diagnostics) {
   ThreadPool pool;
   CompileOptions compile;
-  compile.instances = InstanceMode::kCopy;  // Embree and the judge get one list of triangles.
+  compile.instances = InstanceMode::kCopy;       // Embree and the judge get one list of triangles.
+  compile.light_choice = LightChoosing::kPower;  // One kernel for all scenes.
   compile.block_width = std::max(4u, kernels.lanes);
   compile.width = options.width;
   compile.height = options.height;

@@ -94,6 +94,7 @@ TEST_F(CompileLights, InstancedLightShinesOncePerInstanceByItsOwnArea) {
   shape(triangle());
   description.instances.push_back({0, scale(2, 2, 2), kNone, {}});
   description.instances.push_back({0, translate(0, 0, 3), kNone, {}});
+  options.light_choice = LightChoosing::kPower;
   const Scene scene = compile();
   ASSERT_EQ(scene.lights.size(), 4u);
   for (uint32_t i = 0; i < 4; ++i)

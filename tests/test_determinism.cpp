@@ -113,6 +113,7 @@ TEST_P(Determinism, StoppingLeavesWholeSamplesOnly) {
 
 constexpr uint32_t kFaultyPixel = 7u << 16 | 12u, kFaultySample = 3;
 const KernelTable* healthy = nullptr;
+decltype(KernelTable::add_emission) healthy_emission = nullptr;
 
 /// The real kernel, with one path's throughput spoilt.
 void faulty_camera(const SceneView& scene, const CameraSample<ConstColumn>& samples,
@@ -129,7 +130,7 @@ void faulty_camera(const SceneView& scene, const CameraSample<ConstColumn>& samp
 void faulty_sums(const SceneView& scene, const Surface<ConstColumn>& surfaces,
                  const PathState<ConstColumn>& paths, const SampleSum<Column>& sums, DropLog& log,
                  uint32_t n) noexcept {
-  healthy->add_emission(scene, surfaces, paths, sums, log, n);
+  healthy_emission(scene, surfaces, paths, sums, log, n);
   for (uint32_t i = 0; i < n; ++i)
     if (paths.pixel[i] == kFaultyPixel)
       sums.r[paths.slot[i]] = std::numeric_limits<float>::infinity();
@@ -163,9 +164,10 @@ TEST_P(Determinism, ABrokenSumIsRefusedByTheFilmAndCounted) {
       compile_text(view_text("0 -.5 0", "0 0 0", 60, kWidth, kHeight) + light_text("1 1 1") +
                        matte_text(".5 .5 .5") + room_text(1) + "WorldEnd\n",
                    kernels());
-  healthy = &kernels();
+  const bool tree = make_plan(scene, kernels(), {}).light_tree;
+  healthy_emission = tree ? kernels().add_tree_emission : kernels().add_emission;
   KernelTable faulty = kernels();
-  faulty.add_emission = &faulty_sums;
+  faulty.add_emission = faulty.add_tree_emission = &faulty_sums;
   RenderResult result;
   const Film film = render_film(scene, make_plan(scene, faulty, {}), 0, kSamples, 2, 0, 0, &result);
   EXPECT_EQ(film.at(12, 7).samples, 0u);

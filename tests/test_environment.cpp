@@ -142,7 +142,7 @@ TEST_P(Environment, DirectionsFollowTheirDensity) {
       ++seen[row * kColumns + column];
       bool same = false;
       for (uint32_t l = 0; l < lights; ++l) {
-        const double pdf = reference::see_environment(scene, l, w).pdf;
+        const double pdf = reference::see_environment(scene, l, {}, w).pdf;
         same = same || std::fabs(double(drawn.samples.row(i).pdf) - pdf) <= 2e-3 * pdf;
       }
       agree += same;
@@ -156,7 +156,7 @@ TEST_P(Environment, DirectionsFollowTheirDensity) {
         const glm::dvec3 w = latlong_direction(s, t);
         double pdf = 0;
         for (uint32_t l = 0; l < lights; ++l) {
-          const reference::SeenEnvironment at = reference::see_environment(scene, l, w);
+          const reference::SeenEnvironment at = reference::see_environment(scene, l, {}, w);
           // Outside its disc the sun's density is that of directions that are never drawn.
           if (scene.lights.row(l).kind != uint32_t(LightKind::kSun) || at.radiance.y > 0)
             pdf += at.pdf;
@@ -195,7 +195,7 @@ TEST_P(Environment, BothWaysFindTheSameLight) {
         if (cos <= 0) continue;
         glm::dvec3 radiance(0);
         for (uint32_t l = 0; l < scene.lights.size(); ++l)
-          radiance += reference::see_environment(scene, l, w).radiance;
+          radiance += reference::see_environment(scene, l, {}, w).radiance;
         integral += radiance * cos * std::sin(kPi * t) * (kPi * kPi / (kRows * kRows));
       }
 
@@ -249,12 +249,13 @@ TEST_P(Environment, KernelsSeeWhatTheReferenceSees) {
         glm::dvec3 wanted(0);
         double edge = 1;
         for (uint32_t l = 0; l < scene.lights.size(); ++l) {
-          const auto at = reference::see_environment(scene, l, glm::normalize(directions[i]));
+          const auto at = reference::see_environment(scene, l, {}, glm::normalize(directions[i]));
           const double ratio = pdf[i] > 0 ? at.pdf / double(pdf[i]) : 0;
           wanted += at.radiance / (1 + ratio * ratio);
           // The density jumps at the edge of a cell.
           const glm::dvec3 beside = glm::normalize(directions[i] + glm::dvec3(2e-6, 1e-6, -2e-6));
-          if (std::fabs(reference::see_environment(scene, l, beside).pdf - at.pdf) > 1e-3 * at.pdf)
+          if (std::fabs(reference::see_environment(scene, l, {}, beside).pdf - at.pdf) >
+              1e-3 * at.pdf)
             edge = 0;
         }
         if (edge > 0)

@@ -210,7 +210,8 @@ std::string memory_of(const Scene& scene) {
     line("their instances", scene.instances.instance_bytes());
   }
   line("lights", scene.lights.bytes());
-  line("light choice", scene.light_choice.bytes());
+  line("light choice", scene.light_choice.bytes() + scene.light_tree.nodes.bytes() +
+                           scene.light_tree.trail.bytes());
   for (uint32_t kind = 0; kind < kMaterialKinds; ++kind)
     line(fmt::format("material {}", kMaterialNames[kind]), scene.parameters[kind].bytes());
   size_t programs = 0;

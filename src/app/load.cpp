@@ -56,8 +56,8 @@ void compile(const Arguments& arguments, const KernelTable& kernels, ThreadPool&
   }
   options.image_bytes = arguments.image_bytes;
   options.instances = arguments.instances;
-  options.image_bytes = arguments.image_bytes;
   options.compensation = arguments.compensation;
+  options.light_choice = arguments.light_choice;
   loaded.scene = compile_scene(loaded.description, options, pool, diagnostics);
   if (arguments.tone_map) loaded.scene.film.tone_map = *arguments.tone_map;
   loaded.scene.film.exposure_stops = arguments.exposure_stops;

@@ -48,6 +48,9 @@ constexpr OptionText kRenderOptions[] = {
     {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
     {"--instances", "auto|copy|share", "auto",
      "objects placed by ObjectInstance: copied, stored once, or as their size says"},
+    {"--light-choice", "auto|power|tree", "auto",
+     "lights a surface asks: by power, or by a tree that knows distances too; auto: as many as "
+     "they are"},
     {"--texture-cache", "MB", "2048",
      "most memory for the texels of images; the finest levels are left out beyond it"},
     {"--energy-compensation", "auto|on|off", "auto",
@@ -84,6 +87,9 @@ constexpr OptionText kInfoOptions[] = {
     {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
     {"--instances", "auto|copy|share", "auto",
      "objects placed by ObjectInstance: copied, stored once, or as their size says"},
+    {"--light-choice", "auto|power|tree", "auto",
+     "lights a surface asks: by power, or by a tree that knows distances too; auto: as many as "
+     "they are"},
     {"--texture-cache", "MB", "2048",
      "most memory for the texels of images; the finest levels are left out beyond it"},
     {"--isa", "NAME", "YAT_ISA, or the best here", "instruction set of the kernels"},
@@ -133,6 +139,10 @@ constexpr std::array<std::pair<std::string_view, EnergyCompensation>, 3> kCompen
     {{"auto", EnergyCompensation::kAuto},
      {"on", EnergyCompensation::kOn},
      {"off", EnergyCompensation::kOff}}};
+constexpr std::array<std::pair<std::string_view, LightChoosing>, 3> kLightChoices = {
+    {{"auto", LightChoosing::kAuto},
+     {"power", LightChoosing::kPower},
+     {"tree", LightChoosing::kTree}}};
 constexpr std::array<std::pair<std::string_view, ToneMap>, 9> kToneMaps = {
     {{"linear", ToneMap::kLinear},
      {"reinhard", ToneMap::kReinhard},
@@ -203,8 +213,8 @@ std::array<T, N> numbers(std::string_view option, std::string_view text, char se
 /// Text of every option as given; read into Arguments once all are known.
 struct Given {
   std::string spp, samples_range, time, threads, integrator, max_depth, sampler, sample_set, compat,
-      colour, seed, resolution, crop, instances, texture_cache, compensation, tree, tone_map,
-      exposure, aov, progress;
+      colour, seed, resolution, crop, instances, light_choice, texture_cache, compensation, tree,
+      tone_map, exposure, aov, progress;
   bool verbose = false, quiet = false;
 };
 
@@ -244,6 +254,7 @@ void add_shared(Adder& add, Arguments& arguments, Given& given) {
   add("--resolution", given.resolution);
   add("--crop", given.crop);
   add("--instances", given.instances);
+  add("--light-choice", given.light_choice);
   add("--texture-cache", given.texture_cache);
   add("--isa", arguments.isa);
   add("--tree", given.tree);
@@ -359,6 +370,8 @@ void read_given(const Given& given, Arguments& to) {
   if (!given.tree.empty()) to.tree = by_name("--tree", given.tree, kTrees);
   if (!given.instances.empty())
     to.instances = by_name("--instances", given.instances, kInstanceModes);
+  if (!given.light_choice.empty())
+    to.light_choice = by_name("--light-choice", given.light_choice, kLightChoices);
   if (!given.texture_cache.empty())
     to.image_bytes = uint64_t(number<uint32_t>("--texture-cache", given.texture_cache,
                                                given.texture_cache, 1u, 8191u))

@@ -61,6 +61,7 @@ struct Arguments {
   std::optional<std::array<float, 4>> crop;  ///< fractions x0 x1 y0 y1
   TreeChoice tree = TreeChoice::kFromScene;
   InstanceMode instances = InstanceMode::kAuto;
+  LightChoosing light_choice = LightChoosing::kAuto;
   uint64_t image_bytes = ImageStore::kDefaultLimit;  ///< --texture-cache
   EnergyCompensation compensation = EnergyCompensation::kAuto;
   std::string isa;

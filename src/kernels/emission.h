@@ -10,8 +10,9 @@
 
 namespace yat::YAT_ISA {
 
-/// See KernelTable::add_emission. Surfaces shine on the side of their geometric normal only.
-template <class A>
+/// See KernelTable::add_emission, add_tree_emission. Surfaces shine on the side of their geometric
+/// normal only.
+template <class A, bool kByTree = false>
 void add_emission(const SceneView& scene, const Surface<ConstColumn>& surfaces,
                   const PathState<ConstColumn>& paths, const SampleSum<Column>& sums, DropLog& log,
                   uint32_t n) noexcept {
@@ -43,7 +44,7 @@ void add_emission(const SceneView& scene, const Surface<ConstColumn>& surfaces,
       const Float<A> of_shape = ShapeLight<A>::pdf(scene.geometry.shapes, row, shape, pos, seen);
       sampled = select<A>(shape, of_shape, sampled);
     }
-    sampled = sampled * chance_of_light<A>(row);
+    sampled = sampled * chance_of_light<A, kByTree>(scene.lights, light, row, receiver, shining);
     const Float<A> weight =
         select<A>(scattered == zero, one, power_heuristic<A>(scattered, sampled));
 

@@ -31,8 +31,9 @@ YAT_INLINE SeenEnvironment<A> see_environment(const LightView& lights, LightKind
 /// Word of LightRow::kind in a row.
 inline constexpr uint32_t kLightKindWord = 14;
 
-/// See KernelTable::add_environment. Environments are added up in the order of their rows.
-template <class A>
+/// See KernelTable::add_environment, add_tree_environment. Environments are added up in the order
+/// of their rows.
+template <class A, bool kByTree = false>
 void add_environment(const SceneView& scene, const uint32_t* order, const Ray<ConstColumn>& rays,
                      const Hit<ConstColumn>& hits, const PathState<ConstColumn>& paths,
                      const TransportOptions& options, const SampleSum<Column>& sums, DropLog& log,
@@ -56,14 +57,23 @@ void add_environment(const SceneView& scene, const uint32_t* order, const Ray<Co
     path.sample.store_aligned(sample);
     drop_lanes<A>(missed, !is_finite_positive<A>(path.pdf), DropCause::kPdf, pixel, sample, log);
 
+    Float<A> chosen = one;
+    if constexpr (kByTree) {
+      const Vec3<A> origin{gather<A>(rays.org_x, at), gather<A>(rays.org_y, at),
+                           gather<A>(rays.org_z, at)};
+      // The first far light stands for all of them.
+      chosen = chance_in_tree<A>(lights.tree, origin - path.passed * w,
+                                 UInt<A>(lights.tree.first_far), missed);
+    }
     Float<A> r(0.f), g(0.f), b(0.f);
     for (uint32_t light = lights.first_environment; light < lights.rows.count; ++light) {
       const LightRowW<A> row = broadcast<A>(lights.rows, light);
       const auto kind =
           LightKind(lights.rows.words[size_t(light) * row_words<LightRow> + kLightKindWord]);
       const SeenEnvironment<A> seen = see_environment<A>(lights, kind, row, missed, w);
-      const Float<A> weight = select<A>(
-          path.pdf == zero, one, power_heuristic<A>(path.pdf, seen.pdf * chance_of_light<A>(row)));
+      const Float<A> weight =
+          select<A>(path.pdf == zero, one,
+                    power_heuristic<A>(path.pdf, seen.pdf * (chosen * chance_of_light<A>(row))));
       r = r + weight * row.radiance_r * seen.shade.r;
       g = g + weight * row.radiance_g * seen.shade.g;
       b = b + weight * row.radiance_b * seen.shade.b;

@@ -106,25 +106,41 @@ YAT_INLINE void pick_plain_kinds(const LightQuery<A>& query, LightPick<A>& pick)
   pick_kind<A, LightKind::kDistant>(query, pick);
 }
 
-/// See KernelTable::sample_lights. kKernel: a kind of light, kPlainLights or kAnyLights.
-template <class A, uint32_t kKernel>
-void sample_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
-                   const Randoms<ConstColumn>& randoms, const LightSample<Column>& samples,
-                   uint32_t n) noexcept {
+/// Rows of surfaces as the light tree sees them; all_around: lights of either side count alike.
+template <class A>
+YAT_INLINE LitPoint<A> lit_point(const LightTreeView& tree, const Surface<ConstColumn>& surfaces,
+                                 uint32_t i, const Vec3<A>& receiver, bool all_around) {
+  const Vec3<A> ng{load<A>(surfaces.ng_x, i), load<A>(surfaces.ng_y, i), load<A>(surfaces.ng_z, i)};
+  const Vec3<A> wo{load<A>(surfaces.wo_x, i), load<A>(surfaces.wo_y, i), load<A>(surfaces.wo_z, i)};
+  return {LitPoint<A>::to_tree(tree, receiver), select(dot(ng, wo) > Float<A>(0.f), ng, -ng),
+          Float<A>(all_around ? 1.f : kLeastCosine)};
+}
+
+/// kKernel: a kind of light, kPlainLights or kAnyLights. all_around matters to the tree alone.
+template <class A, uint32_t kKernel, bool kByTree>
+YAT_INLINE void sample_chosen_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
+                                     const Randoms<ConstColumn>& randoms, bool all_around,
+                                     const LightSample<Column>& samples, uint32_t n) noexcept {
   const LightView& lights = scene.lights;
-  const bool one_light = lights.rows.count == 1;
+  const bool one_light = !kByTree && lights.rows.count == 1;
   const Float<A> zero(0.f), one(1.f);
   LightRowW<A> row;
   if (one_light) row = broadcast<A>(lights.rows, 0);
   for (uint32_t i = 0; i < n; i += kLanes<A>) {
     const Mask<A> active = tail_mask<A>(i, n);
-    // Padding may hold anything: as an index, only a number that was drawn is safe.
-    if (!one_light) {
-      const Float<A> choice = only<A>(active, load<A>(randoms.light_choice, i));
-      row = gather<A>(lights.rows, choose_light<A>(lights, choice));
-    }
     const Vec3<A> receiver{load<A>(surfaces.pos_x, i), load<A>(surfaces.pos_y, i),
                            load<A>(surfaces.pos_z, i)};
+    // Padding may hold anything: as an index, only a number that was drawn is safe.
+    ChosenLight<A> chosen;
+    if constexpr (kByTree) {
+      const Float<A> choice = only<A>(active, load<A>(randoms.light_choice, i));
+      chosen = choose_light_by_tree<A>(
+          lights, lit_point<A>(lights.tree, surfaces, i, receiver, all_around), active, choice);
+      row = gather<A>(lights.rows, chosen.row);
+    } else if (!one_light) {
+      const Float<A> choice = only<A>(active, load<A>(randoms.light_choice, i));
+      row = gather<A>(lights.rows, choose_light<A>(lights.choice, choice));
+    }
     const Float<A> far =
         Float<A>(kFarSizes) * xsimd::max(Float<A>(scene.radius), largest_magnitude(receiver));
     Float<A> u = load<A>(randoms.light_u, i), v = load<A>(randoms.light_v, i);
@@ -154,7 +170,11 @@ void sample_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
       pick_shaded_kind<A, LightKind::kSun>(query, pick);
       pick_shaded_kind<A, LightKind::kSky>(query, pick);
     }
-    const Float<A> chance = chance_of_light<A>(row);
+    Float<A> chance = chance_of_light<A>(row), nominal = chance;
+    if constexpr (kByTree) {
+      chance = chance * chosen.chance;
+      nominal = nominal * chosen.nominal;
+    }
     const Float<A> weight = pick.measure / chance;
     LightSample<Lanes<A>::template Of> out;
     out.wi_x = pick.wi.x;
@@ -171,9 +191,25 @@ void sample_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
       out.weight_g = out.weight_g * pick.shade.g;
       out.weight_b = out.weight_b * pick.shade.b;
     }
-    out.pdf = pick.pdf * chance;
+    out.pdf = pick.pdf * nominal;
     store<A>(out, samples, i);
   }
+}
+
+/// See KernelTable::sample_lights.
+template <class A, uint32_t kKernel>
+void sample_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
+                   const Randoms<ConstColumn>& randoms, const LightSample<Column>& samples,
+                   uint32_t n) noexcept {
+  sample_chosen_lights<A, kKernel, false>(scene, surfaces, randoms, true, samples, n);
+}
+
+/// See KernelTable::sample_tree_lights.
+template <class A, uint32_t kKernel>
+void sample_tree_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
+                        const Randoms<ConstColumn>& randoms, bool all_around,
+                        const LightSample<Column>& samples, uint32_t n) noexcept {
+  sample_chosen_lights<A, kKernel, true>(scene, surfaces, randoms, all_around, samples, n);
 }
 
 }  // namespace yat::YAT_ISA

@@ -267,6 +267,19 @@ struct KernelTable {
   void (*sample_lights[kLightKernels])(const SceneView&, const Surface<ConstColumn>&,
                                        const Randoms<ConstColumn>&, const LightSample<Column>&,
                                        uint32_t n) noexcept;
+  /// The same three where the scene has a light tree; of the kernels for one kind of light, only
+  /// that of triangles is there. all_around: lights on the other side of a surface count like those
+  /// on wo's.
+  void (*add_tree_emission)(const SceneView&, const Surface<ConstColumn>&,
+                            const PathState<ConstColumn>&, const SampleSum<Column>&, DropLog&,
+                            uint32_t n) noexcept;
+  void (*add_tree_environment)(const SceneView&, const uint32_t* order, const Ray<ConstColumn>&,
+                               const Hit<ConstColumn>&, const PathState<ConstColumn>&,
+                               const TransportOptions&, const SampleSum<Column>&, DropLog&,
+                               uint32_t n) noexcept;
+  void (*sample_tree_lights[kLightKernels])(const SceneView&, const Surface<ConstColumn>&,
+                                            const Randoms<ConstColumn>&, bool all_around,
+                                            const LightSample<Column>&, uint32_t n) noexcept;
   /// Direct light (if input.lights is given) and the next ray.
   void (*shade[kMaterialKinds])(const ShadeInput&, const TransportOptions&, ShadeOutput&, DropLog&,
                                 uint32_t n) noexcept;

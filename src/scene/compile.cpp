@@ -155,7 +155,7 @@ Scene compile_scene(const Description& description, const CompileOptions& option
     compile_light(*light, description, scene.colour, scene.center, light_tables, lights,
                   diagnostics);
   scene.light_samples = shapes.light_samples() + other_lights.size();
-  finish_lights(std::move(lights), light_tables, double(scene.radius), scene);
+  finish_lights(std::move(lights), light_tables, options.light_choice, pool, scene);
   if (scene.prim_bin.empty() && scene.instances.empty() &&
       scene.first_environment == scene.lights.size())
     diagnostics.fail({}, description.shapes.empty()
@@ -199,6 +199,9 @@ SceneView Scene::view() const {
   view.instances = instances.view();
   view.lights.rows = lights.view();
   view.lights.choice = light_choice.view();
+  if (light_tree.nodes.size() > 0)
+    view.lights.tree = {light_tree.nodes.view(), light_tree.trail.data(), light_tree_scale,
+                        far_light, first_far_light};
   view.lights.kinds = light_kinds;
   view.lights.first_environment = first_environment;
   view.lights.maps = light_maps.view();
@@ -225,7 +228,8 @@ size_t Scene::bytes() const {
                shapes.bytes() + shape_tree.bytes() + veil_shape_tree.bytes() + prim_bin.bytes() +
                tree.bytes() + veils.bytes() + instances.object_bytes() +
                instances.instance_bytes() + lights.bytes() + light_choice.bytes() +
-               light_maps.bytes() + skies.bytes() + light_texels.bytes() + light_cells.bytes() +
+               light_tree.nodes.bytes() + light_tree.trail.bytes() + light_maps.bytes() +
+               skies.bytes() + light_texels.bytes() + light_cells.bytes() +
                filter_quantile_x.bytes() + filter_quantile_y.bytes() + filter_marginal.bytes() +
                filter_conditional.bytes() + filter_sign.bytes();
   for (const auto& table : parameters) sum += table.bytes();

@@ -17,6 +17,7 @@
 #include "scene/description.h"
 #include "scene/image_store.h"
 #include "scene/instances.h"
+#include "scene/light_tree.h"
 #include "scene/texture_program.h"
 #include "scene/tree_build.h"
 
@@ -87,6 +88,15 @@ inline constexpr uint64_t kSharedTriangles = 1024;
 /// ... or if its copies would hold more than this together, some 40 MB.
 inline constexpr uint64_t kCopiedTriangles = 1 << 18;
 
+/// --light-choice: how a surface chooses the light that it asks for.
+enum class LightChoosing {
+  kAuto,   ///< by the tree from kTreeLights on
+  kPower,  ///< by power alone
+  kTree,   ///< by power, distance and direction, if two lights have a place
+};
+/// Lights with a place from which on a tree over them pays (docs/decisions.md).
+inline constexpr uint32_t kTreeLights = 4;
+
 struct CompileOptions {
   uint32_t block_width = 16;  ///< lanes of the kernels that will run: width of the tree's blocks
   uint32_t width = 0, height = 0;  ///< --resolution; 0: as the film says
@@ -95,6 +105,7 @@ struct CompileOptions {
   TreeChoice tree = TreeChoice::kFromScene;
   ColourMode colour = ColourMode::kBands;
   InstanceMode instances = InstanceMode::kAuto;
+  LightChoosing light_choice = LightChoosing::kAuto;
   /// Direct light, mirrors and glass alone, or all light; empty: as SurfaceIntegrator says.
   std::optional<bool> direct_only;
   uint64_t image_bytes = ImageStore::kDefaultLimit;  ///< --texture-cache: most memory for texels
@@ -131,6 +142,9 @@ struct Scene {
   Instances instances;
   RowTable<LightRow> lights;
   RowTable<LightChoice> light_choice;
+  LightTree light_tree;
+  float light_tree_scale = 1, far_light = 0;  ///< LightTreeView::scale, far
+  uint32_t first_far_light = 0;               ///< row of the first light without a place
   RowTable<LightMapRow> light_maps;
   RowTable<SkyRow> skies;
   AlignedArray<float> light_texels, light_cells;

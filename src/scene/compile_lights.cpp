@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "scene/alias_table.h"
+#include "scene/light_choosing.h"
 #include "scene/light_compiler.h"
 
 namespace yat {
@@ -230,23 +230,12 @@ double light_power(const LightRow<Value>& light, const ColourModel& colour, doub
 }
 
 void finish_lights(std::vector<LightRow<Value>> rows, const LightTables& tables,
-                   double scene_radius, Scene& scene) {
-  // Rows of triangles are known to their triangles: environments go to the end, the rest stays.
-  const auto environments = std::stable_partition(
-      rows.begin(), rows.end(),
-      [](const LightRow<Value>& row) { return row.kind < kFirstEnvironment; });
-  scene.first_environment = uint32_t(environments - rows.begin());
-  std::vector<double> power;
-  for (const LightRow<Value>& row : rows)
-    power.push_back(light_power(row, scene.colour, scene_radius));
-  const AliasTable table = make_alias_table(power);
+                   LightChoosing choosing, ThreadPool& pool, Scene& scene) {
+  prepare_light_choice(rows, choosing, pool, scene);
   scene.lights.resize(uint32_t(rows.size()));
-  scene.light_choice.resize(uint32_t(rows.size()));
   scene.light_kinds = 0;
   for (uint32_t i = 0; i < rows.size(); ++i) {
-    rows[i].probability = table.probability[i];
     scene.lights.set(i, rows[i]);
-    scene.light_choice.set(i, table.choice[i]);
     scene.light_kinds |= 1u << rows[i].kind;
   }
 

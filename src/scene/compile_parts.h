@@ -294,9 +294,9 @@ void compile_light(const LightEntry& entry, const Description& description,
 /// Emitted power [W, luminance-weighted] of a light row: what it is chosen by.
 double light_power(const LightRow<Value>& light, const ColourModel& colour, double scene_radius);
 
-/// Fills the scene's light tables (its colour model must be set): probabilities by power, alias
-/// table, maps.
+/// Fills the scene's light tables (its colour model and radius must be set): what lights are chosen
+/// by, maps.
 void finish_lights(std::vector<LightRow<Value>> rows, const LightTables& tables,
-                   double scene_radius, Scene& scene);
+                   LightChoosing choosing, ThreadPool& pool, Scene& scene);
 
 }  // namespace yat

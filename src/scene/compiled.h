@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "kernels/colour_bands.h"
+#include "scene/light_nodes.h"
 #include "soa/columns.h"
 #include "soa/fields.h"
 
@@ -281,9 +282,11 @@ struct LightRow {
   Of<float> a_x, a_y, a_z, b_x, b_y, b_z, c_x, c_y, c_z;
   Of<float> extra;
   Of<float> radiance_r, radiance_g, radiance_b;  ///< bands
-  Of<float> probability;                         ///< with which sample_lights chooses this row
-  Of<uint32_t> kind;                             ///< LightKind
-  Of<float> further;                             ///< >= 0
+  /// With which sample_lights chooses this row by power; where there is a light tree, only among
+  /// those without a place, and 1 for the others.
+  Of<float> probability;
+  Of<uint32_t> kind;  ///< LightKind
+  Of<float> further;  ///< >= 0
   YAT_FIELDS(a_x, a_y, a_z, b_x, b_y, b_z, c_x, c_y, c_z, extra, radiance_r, radiance_g, radiance_b,
              probability, kind, further)
 };
@@ -355,7 +358,9 @@ inline constexpr float kSkyExponent = 40;
 
 struct LightView {
   Rows<LightRow> rows;  ///< those of environments last
+  /// Of all lights; where there is a tree, of those without a place only, numbered from 0.
   Rows<LightChoice> choice;
+  LightTreeView tree;
   uint32_t kinds = 0;              ///< bit k set: LightKind k is present
   uint32_t first_environment = 0;  ///< row of the first light that rays leaving the scene find
   // What lights with a map need; empty without.

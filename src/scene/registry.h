@@ -152,6 +152,9 @@ struct MaterialTraits {
   /// shadow rays are weakened, and samples with wi.z < 0 go straight on, as through see-through
   /// surfaces. Its lobe is decided by Dimension::kChild, anew at every crossing.
   bool veil = false;
+  /// Takes light from the other side too, or takes it without a cosine: choosing lights goes by
+  /// their distance alone.
+  bool all_around = false;
   TexturedFields textured = {};  ///< what textures may give
 };
 

@@ -85,10 +85,14 @@ void need_kernels(const Plan& plan) {
   }
   need(k.classify_hits, k, "classify_hits");
   if (plan.lights) {
-    need(k.sample_lights[plan.light_kernel], k, "sample_lights");
+    if (plan.light_tree)
+      need(k.sample_tree_lights[plan.light_kernel], k, "sample_tree_lights");
+    else
+      need(k.sample_lights[plan.light_kernel], k, "sample_lights");
     need(k.add_unoccluded, k, "add_unoccluded");
   }
-  if (plan.environment) need(k.add_environment, k, "add_environment");
+  if (plan.environment)
+    need(plan.light_tree ? k.add_tree_environment : k.add_environment, k, "add_environment");
   for (uint32_t b = 1; b < plan.bins.size(); ++b) {
     const BinPlan& bin = plan.bins[b];
     if (bin.bin.instanced)
@@ -102,7 +106,8 @@ void need_kernels(const Plan& plan) {
                : bool(k.make_tangents[uint32_t(bin.bin.geometry)]),
            k, "make_tangents");
     need_material(bin, k);
-    if (bin.emission) need(k.add_emission, k, "add_emission");
+    if (bin.emission)
+      need(plan.light_tree ? k.add_tree_emission : k.add_emission, k, "add_emission");
   }
   for (const ShadePlan& child : plan.children) need_material(child, k);
   if (plan.split_levels) need(k.choose_child && k.take_rows, k, "choose_child");
@@ -149,6 +154,7 @@ ShadePlan plan_material(const Scene& scene, const MaterialForm& form, bool roule
   out.veil = traits.veil;
   out.sample_lights = plan.lights && !traits.delta && !traits.see_through;
   out.draw_choice = out.sample_lights && scene.lights.size() > 1;
+  out.all_around = traits.all_around;
   out.draw_lobe = traits.needs_lobe;
   out.draw_direction = traits.needs_direction;
   out.draw_roulette = roulette && !traits.see_through;
@@ -197,6 +203,10 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
                       : std::popcount(scene.light_kinds) == 1
                           ? uint32_t(std::countr_zero(scene.light_kinds))
                           : kPlainLights;
+  plan.light_tree = scene.light_tree.nodes.size() > 0;
+  if (plan.light_tree && plan.light_kernel < kPlainLights &&
+      plan.light_kernel != uint32_t(LightKind::kTriangle))
+    plan.light_kernel = kPlainLights;
   plan.environment = scene.first_environment < scene.lights.size();
   plan.transport.hide_environment = !scene.show_environment;
   // Scattering vertices beyond the first that plays roulette are needed for it to be played.
@@ -235,7 +245,8 @@ std::string describe_material(const Plan& plan, const ShadePlan& material) {
   std::string what;
   if (!numbers.empty()) what += ", draw" + numbers;
   if (material.sample_lights)
-    what += fmt::format(", sample_lights ({})", kLightNames[plan.light_kernel]);
+    what += fmt::format(", {} ({})", plan.light_tree ? "sample_tree_lights" : "sample_lights",
+                        kLightNames[plan.light_kernel]);
   return what + fmt::format(", shade {}", name);
 }
 
@@ -278,16 +289,18 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
        fmt::format("{}: {} bins", plan.instances ? "classify_instance_hits" : "classify_hits",
                    plan.bins.size() - 1));
   if (plan.environment)
-    line(Stage::kEnvironment,
-         fmt::format("add_environment: {} lights{}", scene.lights.size() - scene.first_environment,
-                     plan.transport.hide_environment ? ", not to camera rays" : ""));
+    line(
+        Stage::kEnvironment,
+        fmt::format("{}: {} lights{}", plan.light_tree ? "add_tree_environment" : "add_environment",
+                    scene.lights.size() - scene.first_environment,
+                    plan.transport.hide_environment ? ", not to camera rays" : ""));
   for (uint32_t b = 1; b < plan.bins.size(); ++b) {
     const BinPlan& bin = plan.bins[b];
     std::string what = fmt::format("bin {}, {} primitives: {} {}", b, bin.bin.primitives,
                                    bin.bin.instanced ? "make_instance_surfaces" : "make_surfaces",
                                    kGeometryNames[uint32_t(bin.bin.geometry)]);
     if (bin.bin.tangents) what += ", make_tangents";
-    if (bin.emission) what += ", add_emission";
+    if (bin.emission) what += plan.light_tree ? ", add_tree_emission" : ", add_emission";
     if (bin.bin.program != kNone) what += ", " + texture_steps(scene.programs[bin.bin.program]);
     line(Stage::kShade, what + describe_material(plan, bin));
   }
@@ -347,6 +360,7 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   else
     skipped(any_bin([](const ShadePlan& b) { return b.draw_choice; }) || scene.lights.size() > 1,
             "draw choice", "there is one light");
+  skipped(plan.light_tree || !plan.lights, "light tree", "lights are chosen by power");
   skipped(any_bin([](const ShadePlan& b) { return b.draw_lobe; }), "draw lobe",
           "no material chooses between lobes");
   skipped(any_bin([](const ShadePlan& b) { return b.draw_roulette; }), "draw roulette",

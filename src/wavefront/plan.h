@@ -23,6 +23,7 @@ struct ShadePlan {
   uint32_t child[2] = {};      ///< rows of Plan::children
   bool turned[2] = {};         ///< see MaterialSplit
   bool sample_lights = false;  ///< the scene has lights and the material is not delta
+  bool all_around = false;     ///< see MaterialTraits
   // Random numbers that the rows need.
   bool draw_choice = false;  ///< which light: there is more than one
   bool draw_lobe = false;
@@ -57,7 +58,8 @@ struct Plan {
   bool instance_mask = false;     ///< as shadow_mask, of shared objects
   bool shadow_mask = false;       ///< some triangle is see-through: the masked any-hit kernel
   bool veils = false;             ///< some surface lets a part of the light pass: shadow rays go on
-  uint32_t light_kernel = 0;      ///< index into KernelTable::sample_lights
+  uint32_t light_kernel = 0;      ///< index into KernelTable::sample_lights or sample_tree_lights
+  bool light_tree = false;        ///< lights are chosen by the tree over them
   bool lights = false;
   bool environment = false;  ///< lights that rays find which leave the scene
 };

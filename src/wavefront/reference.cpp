@@ -44,7 +44,7 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
     if (!hit) {
       if (options.hide_environment && vertex == 0) break;
       for (uint32_t i = scene.first_environment; i < scene.lights.size(); ++i) {
-        const SeenEnvironment seen = see_environment(scene, i, ray.direction);
+        const SeenEnvironment seen = see_environment(scene, i, scattered_at, ray.direction);
         const double weight = scattered_pdf > 0 ? power_heuristic(scattered_pdf, seen.pdf) : 1;
         radiance += throughput * seen.radiance * weight;
       }
@@ -98,8 +98,9 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
 
     if (plan.lights && !material_traits(material).delta) {
       const auto [u, v] = random(Dimension::kLight);
-      const LightPoint light = sample_light(scene, hit->position, random(Dimension::kChoice).first,
-                                            double(u), double(v));
+      const Receiver receiver{hit->position, ng, material_traits(material).all_around};
+      const LightPoint light =
+          sample_light(scene, receiver, random(Dimension::kChoice).first, double(u), double(v));
       const Vec wi = axes.to_local(light.wi);
       if (!black(light.arriving) && glm::dot(ng, light.wi) * wi.z > 0) {
         const double weight = light.pdf > 0 ? power_heuristic(light.pdf, bsdf.pdf(wi)) : 1;

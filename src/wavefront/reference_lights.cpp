@@ -194,17 +194,9 @@ Vec pick_environment(const Scene& scene, const LightRow<Value>& row, double u, d
 
 }  // namespace
 
-LightPoint sample_light(const Scene& scene, const Vec& receiver, float choice, double u, double v) {
-  // The choice in single precision, as in the kernels: a path that chose another light would not be
-  // the same path.
-  const uint32_t count = scene.lights.size();
-  uint32_t chosen = 0;
-  if (count > 1) {
-    const float place = choice * float(count);
-    const uint32_t interval = std::min(uint32_t(place), count - 1);
-    const LightChoice<Value> entry = scene.light_choice.row(interval);
-    chosen = place - float(uint32_t(place)) < entry.threshold ? interval : entry.other;
-  }
+LightPoint sample_light(const Scene& scene, const Receiver& lit, float choice, double u, double v) {
+  const Vec& receiver = lit.position;
+  const auto [chosen, chance, nominal] = choose_light(scene, lit, choice);
   const LightRow<Value> row = scene.lights.row(chosen);
   LightPoint pick;
   double inverse_pdf = 0;
@@ -254,9 +246,8 @@ LightPoint sample_light(const Scene& scene, const Vec& receiver, float choice, d
     case LightKind::kCount:
       break;
   }
-  const double probability = double(row.probability);
-  pick.arriving = light_radiance(scene, chosen) * shade * (inverse_pdf / probability);
-  pick.pdf *= probability;
+  pick.arriving = light_radiance(scene, chosen) * shade * (inverse_pdf / chance);
+  pick.pdf *= nominal;
   return pick;
 }
 
@@ -264,6 +255,7 @@ double light_pdf(const Scene& scene, const Vec& receiver, const Point& at, doubl
   const LightRow<Value> row = scene.lights.row(at.light);
   const Vec way = at.position - receiver;
   const double squared = glm::dot(way, way);
+  const double probability = nominal_chance(scene, receiver, at.light);
   double area = double(row.extra);
   if (LightKind(row.kind) == LightKind::kShape)
     area = inverse_density(shape_of(scene, row), at.position);
@@ -273,10 +265,10 @@ double light_pdf(const Scene& scene, const Vec& receiver, const Point& at, doubl
     const double distance2 = glm::dot(to_center, to_center);
     if (row.b_x == 0 && distance2 <= radius * radius) return 0;
     if (row.b_x == 0)
-      return double(row.probability) / (2 * kPi * (1 - std::sqrt(1 - radius * radius / distance2)));
+      return probability / (2 * kPi * (1 - std::sqrt(1 - radius * radius / distance2)));
     area = 4 * kPi * radius * radius;
   }
-  return double(row.probability) * squared / (area * cos);
+  return probability * squared / (area * cos);
 }
 
 Vec light_radiance(const Scene& scene, uint32_t light) {
@@ -284,10 +276,11 @@ Vec light_radiance(const Scene& scene, uint32_t light) {
   return {row.radiance_r, row.radiance_g, row.radiance_b};
 }
 
-SeenEnvironment see_environment(const Scene& scene, uint32_t light, const Vec& w) {
+SeenEnvironment see_environment(const Scene& scene, uint32_t light, const Vec& receiver,
+                                const Vec& w) {
   const LightRow<Value> row = scene.lights.row(light);
   const Vec radiance = light_radiance(scene, light);
-  const auto probability = double(row.probability);
+  const double probability = nominal_chance(scene, receiver, light);
   switch (LightKind(row.kind)) {
     case LightKind::kConstant:
       return {radiance, probability / (4 * kPi)};

@@ -142,19 +142,38 @@ struct LightPoint {
   Vec wi{0.0};        ///< unit, towards the light
   Vec to{0.0};        ///< where the shadow ray ends
   Vec arriving{0.0};  ///< radiance / pdf
-  double pdf = 0;     ///< solid angle, choice included; 0: cannot be hit
+  double pdf = 0;     ///< solid angle, nominal chance included; 0: cannot be hit
 };
 
-LightPoint sample_light(const Scene& scene, const Vec& receiver, float choice, double u, double v);
-/// Density with which sample_light chooses the point `at` of its light from `receiver`.
+/// Who is lit: where, and unless all_around only from the side of `up` (unit).
+struct Receiver {
+  Vec position, up;
+  bool all_around;
+};
+/// Which light a number chooses, and with what chance; `nominal` is what weights go by.
+struct LightChance {
+  uint32_t light;
+  double chance, nominal;
+};
+LightChance choose_light(const Scene& scene, const Receiver& receiver, float u);
+/// LightChance::chance of a light. Nominal is that of a receiver lit from all around.
+double chance_of_light(const Scene& scene, const Receiver& receiver, uint32_t light);
+inline double nominal_chance(const Scene& scene, const Vec& receiver, uint32_t light) {
+  return chance_of_light(scene, {receiver, Vec(0.0), true}, light);
+}
+
+LightPoint sample_light(const Scene& scene, const Receiver& receiver, float choice, double u,
+                        double v);
+/// The density of sample_light for the point `at` of its light from `receiver`, by nominal chance.
 double light_pdf(const Scene& scene, const Vec& receiver, const Point& at, double cos);
 Vec light_radiance(const Scene& scene, uint32_t light);
 
 /// What an environment light shows in direction w (unit).
 struct SeenEnvironment {
   Vec radiance;
-  double pdf;  ///< with which sample_light chooses w for this light, choice included
+  double pdf;  ///< with which sample_light chooses w for this light, nominal chance included
 };
-SeenEnvironment see_environment(const Scene& scene, uint32_t light, const Vec& w);
+SeenEnvironment see_environment(const Scene& scene, uint32_t light, const Vec& receiver,
+                                const Vec& w);
 
 }  // namespace yat::reference

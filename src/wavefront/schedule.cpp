@@ -166,9 +166,9 @@ void Worker::environment() {
   const uint32_t n = bin_begin_[1];
   if (!n) return;
   clock_.enter(Stage::kEnvironment, n);
-  kernels_.add_environment(view_, batch_.order.data(), batch_.rays[current_].view(),
-                           batch_.hits.view(), batch_.paths[current_].view(), plan_.transport,
-                           batch_.sums.columns(), counted_.drops, n);
+  const auto add = plan_.light_tree ? kernels_.add_tree_environment : kernels_.add_environment;
+  add(view_, batch_.order.data(), batch_.rays[current_].view(), batch_.hits.view(),
+      batch_.paths[current_].view(), plan_.transport, batch_.sums.columns(), counted_.drops, n);
   count(Stage::kEnvironment, n);
 }
 
@@ -221,8 +221,8 @@ void Worker::shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end) {
 
   if (bin.emission) {
     clock_.enter(Stage::kEmission, n);
-    kernels_.add_emission(view_, rows.surfaces, rows.paths, batch_.sums.columns(), counted_.drops,
-                          n);
+    const auto add = plan_.light_tree ? kernels_.add_tree_emission : kernels_.add_emission;
+    add(view_, rows.surfaces, rows.paths, batch_.sums.columns(), counted_.drops, n);
     count(Stage::kEmission, n);
   }
 
@@ -284,8 +284,12 @@ void Worker::shade_rows(const ShadePlan& plan, const ChunkRows& rows) {
   LightSample<ConstColumn> lights{};
   if (plan.sample_lights) {
     clock_.enter(Stage::kLightSample, n);
-    kernels_.sample_lights[plan_.light_kernel](view_, rows.surfaces, drawn, batch_.lights.columns(),
-                                               n);
+    if (plan_.light_tree)
+      kernels_.sample_tree_lights[plan_.light_kernel](view_, rows.surfaces, drawn, plan.all_around,
+                                                      batch_.lights.columns(), n);
+    else
+      kernels_.sample_lights[plan_.light_kernel](view_, rows.surfaces, drawn,
+                                                 batch_.lights.columns(), n);
     lights = batch_.lights.view();
     count(Stage::kLightSample, n);
   }

@@ -41,6 +41,7 @@ inline constexpr MaterialTraits kGlossyTranslucentTraits{.name = "glossy_translu
                                                          .see_through = false,
                                                          .needs_lobe = true,
                                                          .needs_direction = true,
+                                                         .all_around = true,
                                                          .textured = kGlossyTranslucentTextured};
 
 #if defined(YAT_ISA)

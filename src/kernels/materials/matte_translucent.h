@@ -28,6 +28,7 @@ inline constexpr MaterialTraits kMatteTranslucentTraits{.name = "matte_transluce
                                                         .see_through = false,
                                                         .needs_lobe = true,
                                                         .needs_direction = true,
+                                                        .all_around = true,
                                                         .textured = kMatteTranslucentTextured};
 
 #if defined(YAT_ISA)

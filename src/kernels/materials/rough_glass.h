@@ -31,6 +31,7 @@ inline constexpr MaterialTraits kRoughGlassTraits{.name = "rough_glass",
                                                   .see_through = false,
                                                   .needs_lobe = true,
                                                   .needs_direction = true,
+                                                  .all_around = true,
                                                   .textured = kRoughGlassTextured};
 
 /// LuxRender's own clamp.

@@ -26,6 +26,7 @@ inline constexpr MaterialTraits kScatterTraits{.name = "scatter",
                                                .see_through = false,
                                                .needs_lobe = false,
                                                .needs_direction = true,
+                                               .all_around = true,
                                                .textured = kScatterTextured};
 
 #if defined(YAT_ISA)
