@@ -19,8 +19,10 @@ namespace yat {
 /// Compiles a scene for the kernels that will run. Warnings fail the test: these scenes are ours.
 inline Scene compile_description(const Description& description, const KernelTable& kernels,
                                  Diagnostics& diagnostics, uint32_t width = 0, uint32_t height = 0,
-                                 ColourMode colour = ColourMode::kBands) {
+                                 ColourMode colour = ColourMode::kBands, bool keep_uv = false) {
   CompileOptions options;
+  options.ids = true;  // for feature pictures
+  options.keep_uv = keep_uv;
   options.block_width = kernels.lanes;
   options.width = width;
   options.height = height;
@@ -29,12 +31,12 @@ inline Scene compile_description(const Description& description, const KernelTab
   return compile_scene(description, options, pool, diagnostics);
 }
 inline Scene compile_text(const std::string& text, const KernelTable& kernels,
-                          ColourMode colour = ColourMode::kBands) {
+                          ColourMode colour = ColourMode::kBands, bool keep_uv = false) {
   Diagnostics diagnostics([](Severity severity, std::string_view line) {
     if (severity != Severity::kNote) ADD_FAILURE() << line;
   });
   return compile_description(parse_scene(text, "test.lxs", ".", diagnostics), kernels, diagnostics,
-                             0, 0, colour);
+                             0, 0, colour, keep_uv);
 }
 
 inline Film render_film(const Scene& scene, const Plan& plan, uint32_t first, uint32_t end,

@@ -93,6 +93,72 @@ TEST_P(Features, ThatTheViewerIsBehindDoesNotShow) {
   EXPECT_NEAR(most, 1, 1e-6);
 }
 
+/// A quad about (x, 0, -2), 2 wide, 4 long, flat, with texture coordinates.
+std::string tile_text(double x) {
+  const std::string left = std::to_string(x - 1), right = std::to_string(x + 1);
+  return "Shape \"mesh\" \"integer triindices\" [0 1 2 0 2 3] \"point P\" [" + left + " -2 -2 " +
+         right + " -2 -2 " + right + " 2 -2 " + left + " 2 -2] \"float uv\" [0 0 1 0 1 1 0 1]\n";
+}
+
+TEST_P(Features, NumbersSayWhichObjectAndMaterial) {
+  // Seen from above, from the left: an object of its own, one behind a null surface, two instances.
+  const std::string text =
+      view_text("0 0 8", "0 1e-3 0", 60, kSide, kSide) +
+      "LightSource \"point\" \"point from\" [0 0 3] \"color L\" [5 5 5]\n" +
+      "MakeNamedMaterial \"a\" \"string type\" [\"matte\"]\n" + tile_text(-4.5) +
+      "NamedMaterial \"a\"\n" + tile_text(-1.5) +
+      "AttributeBegin\nTranslate 0 0 1\nMaterial \"null\"\n" + light_text("1 1 1") +
+      tile_text(-1.5) + "AttributeEnd\n" + matte_text(".2 .2 .2") + "ObjectBegin \"o\"\n" +
+      tile_text(0) + "ObjectEnd\n" +
+      "AttributeBegin\nTranslate 1.5 0 0\nObjectInstance \"o\"\nAttributeEnd\n" +
+      "AttributeBegin\nTranslate 4.5 0 0\nObjectInstance \"o\"\nAttributeEnd\nWorldEnd\n";
+  // Shapes are 1 to 4 (the object's is the fourth), instances 5 and 6; "a" is material 1, null 2.
+  constexpr float kObjects[] = {1, 2, 5, 6}, kMaterials[] = {0, 1, 3, 3};
+  Diagnostics diagnostics([](Severity, std::string_view) {});
+  const Description description = parse_scene(text, "test.lxs", ".", diagnostics);
+  for (const InstanceMode mode : {InstanceMode::kCopy, InstanceMode::kShare}) {
+    CompileOptions options;
+    options.block_width = kernels().lanes;
+    options.instances = mode;
+    options.ids = true;
+    ThreadPool pool(1);
+    const Scene scene = compile_scene(description, options, pool, diagnostics);
+    // One sample: its place says which object it met.
+    const Pictures p = render_features(scene, make_plan(scene, kernels(), {}), 1);
+    const auto object = p.of(Feature::kObjectId), material = p.of(Feature::kMaterialId),
+               position = p.of(Feature::kPosition), depth = p.of(Feature::kDepth);
+    uint32_t seen[4] = {};
+    for (uint32_t i = 0; i < kSide * kSide; ++i) {
+      if (depth[i] == feature_info(Feature::kDepth).background) {
+        EXPECT_EQ(object[i], 0.f);
+        EXPECT_EQ(material[i], 0.f);
+        continue;
+      }
+      const auto tile = uint32_t((position[3 * i] + 6) / 3);
+      ASSERT_LT(tile, 4u);
+      ++seen[tile];
+      EXPECT_EQ(object[i], kObjects[tile]);
+      EXPECT_EQ(material[i], kMaterials[tile]);
+    }
+    for (const uint32_t n : seen) EXPECT_GT(n, 0u);
+  }
+}
+
+TEST_P(Features, FlatMeshesKeepTextureCoordinatesWhereAskedFor) {
+  const std::string text = view_text("0 0 3", "0 1e-3 0", 20, kSide, kSide) +
+                           "LightSource \"point\" \"color L\" [5 5 5]\n" + matte_text(".5 .5 .5") +
+                           tile_text(0) + "WorldEnd\n";
+  for (const bool keep : {false, true}) {
+    const Scene scene = compile_text(text, kernels(), ColourMode::kBands, keep);
+    const Pictures p = render_features(scene, make_plan(scene, kernels(), {}), 4);
+    const auto position = p.of(Feature::kPosition), uv = p.of(Feature::kUv);
+    for (uint32_t i = 0; i < kSide * kSide; ++i) {
+      EXPECT_NEAR(uv[2 * i], keep ? (position[3 * i] + 1) / 2 : 0, 1e-5);
+      EXPECT_NEAR(uv[2 * i + 1], keep ? (position[3 * i + 1] + 2) / 4 : 0, 1e-5);
+    }
+  }
+}
+
 TEST_P(Features, PartsOfTheLightAddUp) {
   const Scene scene = compile_text(everything_text(kSide, kSide), kernels());
   const Plan plan = make_plan(scene, kernels(), {});

@@ -55,6 +55,11 @@ void compile(const Arguments& arguments, const KernelTable& kernels, ThreadPool&
     options.crop_given = true;
   }
   options.image_bytes = arguments.image_bytes;
+  const auto asks_for = [&](Feature feature) {
+    return (arguments.features & feature_bit(feature)) != 0;
+  };
+  options.ids = asks_for(Feature::kObjectId) || asks_for(Feature::kMaterialId);
+  options.keep_uv = asks_for(Feature::kUv);
   options.instances = arguments.instances;
   options.compensation = arguments.compensation;
   options.light_choice = arguments.light_choice;

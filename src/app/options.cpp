@@ -66,7 +66,7 @@ constexpr OptionText kRenderOptions[] = {
     {"--exposure", "STOPS", "0", "brighten .png and .jpg by 2^STOPS before tone mapping"},
     {"--aov", "LIST", "none",
      "feature pictures into the .exr, comma-separated: albedo, normal, geometric_normal, depth, "
-     "position, uv, direct, indirect, variance, sample_count, or all"},
+     "position, uv, direct, indirect, variance, sample_count, object_id, material_id, or all"},
     {"--stats", "FILE", "none", "write what was done and how long it took as JSON"},
     {"--trace", "FILE", "none", "write the stages of each thread over time as Chrome trace events"},
     {"--progress", "auto|bar|plain|json|none", "auto",

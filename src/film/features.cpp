@@ -29,6 +29,8 @@ constexpr std::array<FeatureInfo, kFeatures> kInfo = {{
     {"indirect", "indirect.R,indirect.G,indirect.B", 3, FeatureMean::kOverSamples, 0},
     {"variance", "variance.R,variance.G,variance.B", 3, FeatureMean::kOverSamples, 0},
     {"sample_count", "sample_count", 1, FeatureMean::kOverSamples, 0},
+    {"object_id", "object_id", 1, FeatureMean::kOfFirstHit, 0},
+    {"material_id", "material_id", 1, FeatureMean::kOfFirstHit, 0},
 }};
 
 /// What the film can hold of a value.
@@ -89,9 +91,11 @@ void FeaturePlane::merge(const FeaturePlane& other) {
 }
 
 FeatureFilm::FeatureFilm(uint32_t width, uint32_t height, FeatureSet set)
-    : width_(width), height_(height), set_(set) {
+    : width_(width), height_(height), set_(set), ids_(has_ids() ? size_t(width) * height : 0) {
   for (uint32_t f = 0; f < kFeatures; ++f) {
-    if (!has(Feature(f)) || Feature(f) == Feature::kSampleCount) continue;
+    if (!has(Feature(f)) || Feature(f) == Feature::kSampleCount ||
+        feature_info(Feature(f)).mean == FeatureMean::kOfFirstHit)
+      continue;
     place_[f] = uint32_t(planes_.size());
     planes_.emplace_back(size_t(width) * height);
   }
@@ -101,10 +105,11 @@ void FeatureFilm::merge(const FeatureFilm& other) {
   if (other.width_ != width_ || other.height_ != height_ || other.set_ != set_)
     throw std::invalid_argument("FeatureFilm::merge: the films differ");
   for (size_t i = 0; i < planes_.size(); ++i) planes_[i].merge(other.planes_[i]);
+  ids_.merge(other.ids_);
 }
 
 size_t FeatureFilm::bytes() const {
-  size_t sum = 0;
+  size_t sum = ids_.bytes();
   for (const FeaturePlane& plane : planes_) sum += plane.bytes();
   return sum;
 }
@@ -118,6 +123,10 @@ std::vector<float> FeatureFilm::resolve(Feature feature, const Film& film) const
     const FilmPixel& all = film.data()[i];
     if (feature == Feature::kSampleCount) {
       *to = float(all.samples);
+      continue;
+    }
+    if (info.mean == FeatureMean::kOfFirstHit) {
+      *to = float(feature == Feature::kObjectId ? ids_.at(i).object : ids_.at(i).material);
       continue;
     }
     const FilmPixel& sums = plane(feature).at(i);

@@ -28,13 +28,16 @@ enum class Feature : uint32_t {
   kIndirect,         ///< indirect.R .G .B: light scattered more than once
   kVariance,         ///< variance.R .G .B: of a sample; over sample_count, of the pixel
   kSampleCount,      ///< sample_count
+  kObjectId,         ///< object_id: a number per object, from 1 on; 0 in the background
+  kMaterialId,       ///< material_id: the same per material
   kCount
 };
 inline constexpr uint32_t kFeatures = uint32_t(Feature::kCount);
 
 /// Where a feature shows nothing: samples of the background count as zeros (albedo, normals), or
-/// not at all (depth, position, uv), which then hold the mean of the samples that hit.
-enum class FeatureMean { kOverSamples, kOverHits };
+/// not at all (depth, position, uv), which then hold the mean of the samples that hit. Numbers of
+/// things have no mean: they are those of the first sample that hit.
+enum class FeatureMean { kOverSamples, kOverHits, kOfFirstHit };
 
 struct FeatureInfo {
   std::string_view name;      ///< as on the command line
@@ -69,13 +72,36 @@ class FeaturePlane {
   std::vector<FilmPixel> sums_;  ///< `samples`: hits
 };
 
+/// Numbers of what a pixel shows: of its first sample that hit anything, whatever the order in
+/// which samples come.
+class IdPlane {
+ public:
+  struct Ids {
+    uint32_t sample = 0xffffffffu, object = 0, material = 0;
+  };
+  explicit IdPlane(size_t pixels) : ids_(pixels) {}
+  void add(size_t pixel, const Ids& ids) noexcept {
+    if (ids.sample < ids_[pixel].sample) ids_[pixel] = ids;
+  }
+  const Ids& at(size_t pixel) const { return ids_[pixel]; }
+  void merge(const IdPlane& other) {
+    for (size_t i = 0; i < ids_.size(); ++i) add(i, other.ids_[i]);
+  }
+  size_t bytes() const { return ids_.size() * sizeof(Ids); }
+
+ private:
+  std::vector<Ids> ids_;
+};
+
 /// All features that are asked for.
 class FeatureFilm {
  public:
   FeatureFilm(uint32_t width, uint32_t height, FeatureSet set);
   FeatureSet set() const { return set_; }
   bool has(Feature feature) const { return set_ & feature_bit(feature); }
-  /// Precondition: has(feature), and not kSampleCount, which the film itself knows.
+  bool has_ids() const { return has(Feature::kObjectId) || has(Feature::kMaterialId); }
+  IdPlane& ids() { return ids_; }
+  /// Precondition: has(feature), and neither kSampleCount, which the film itself knows, nor an id.
   FeaturePlane& plane(Feature feature) { return planes_[place_[uint32_t(feature)]]; }
   const FeaturePlane& plane(Feature feature) const { return planes_[place_[uint32_t(feature)]]; }
   /// Throws std::invalid_argument when sizes or sets differ.
@@ -91,6 +117,7 @@ class FeatureFilm {
   FeatureSet set_;
   uint32_t place_[kFeatures] = {};
   std::vector<FeaturePlane> planes_;
+  IdPlane ids_;  ///< empty without has_ids()
 };
 
 }  // namespace yat

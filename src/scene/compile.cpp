@@ -139,7 +139,7 @@ Scene compile_scene(const Description& description, const CompileOptions& option
       std::max(bounds.radius(), std::hypot(double(eye[0]), double(eye[1]), double(eye[2])));
   if (reach > 0) scene.radius = std::nextafter(float(reach), INFINITY);
 
-  GeometryRows rows(scene.center, diagnostics);
+  GeometryRows rows(scene.center, options.ids, diagnostics);
   for (const PlacedShape& placed : shapes.placed()) rows.add(placed);
   BinKeys keys;
   rows.add_keys(keys);
@@ -147,7 +147,7 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   keys.number(scene, diagnostics);
   std::vector<uint8_t> occludes;
   rows.finish(keys, scene, occludes);
-  objects.finish(keys, scene, rows.lights());
+  objects.finish(keys, options.ids, scene, rows.lights());
   shapes.materials().finish(scene);
   std::vector<LightRow<Value>> lights = std::move(rows.lights());
   LightTables light_tables;

@@ -97,6 +97,14 @@ enum class LightChoosing {
 /// Lights with a place from which on a tree over them pays (docs/decisions.md).
 inline constexpr uint32_t kTreeLights = 4;
 
+/// Numbers by which compositors tell things apart.
+struct SurfaceIds {
+  /// Of the Shape statement, from 1 on; of what an object placed: the number of Shape statements
+  /// and that of the ObjectInstance. 0: a lamp without a shape.
+  uint32_t object = 0;
+  uint32_t material = 0;  ///< of the material's statement, from 1 on; 0: the default
+};
+
 struct CompileOptions {
   uint32_t block_width = 16;  ///< lanes of the kernels that will run: width of the tree's blocks
   uint32_t width = 0, height = 0;  ///< --resolution; 0: as the film says
@@ -106,6 +114,8 @@ struct CompileOptions {
   ColourMode colour = ColourMode::kBands;
   InstanceMode instances = InstanceMode::kAuto;
   LightChoosing light_choice = LightChoosing::kAuto;
+  bool ids = false;      ///< for feature pictures: Scene::prim_ids and what instances have
+  bool keep_uv = false;  ///< the same: texture coordinates also where nothing is textured
   /// Direct light, mirrors and glass alone, or all light; empty: as SurfaceIntegrator says.
   std::optional<bool> direct_only;
   uint64_t image_bytes = ImageStore::kDefaultLimit;  ///< --texture-cache: most memory for texels
@@ -133,6 +143,7 @@ struct Scene {
   std::array<RowRange, kShapeKinds> shape_rows{};  ///< see ShapesView
   Tree shape_tree;                                 ///< over spheres and shapes, if many
   AlignedArray<uint32_t> prim_bin;
+  std::vector<SurfaceIds> prim_ids;  ///< per primitive row, if asked for
   Tree tree;
   Tree veils;  ///< of the triangles that are veils, again
   /// Spheres and planes from these on are veils.

@@ -118,8 +118,10 @@ void GeometryRows::add_mesh(const PlacedShape& placed, const Mesh& mesh) {
     lights_.push_back(light);
   }
   triangle_runs_.push_back(
-      {first, BinKey::of(added.flat ? GeometryKind::kTriangleFlat : GeometryKind::kTriangleVertex,
-                         placed.material, placed.emissive(), Placing::kOnce)});
+      {first,
+       BinKey::of(added.flat ? GeometryKind::kTriangleFlat : GeometryKind::kTriangleVertex,
+                  placed.material, placed.emissive(), Placing::kOnce),
+       placed.ids()});
 }
 
 void GeometryRows::add_sphere(const PlacedShape& placed) {
@@ -164,6 +166,7 @@ void GeometryRows::add_sphere(const PlacedShape& placed) {
     box.max[axis] = double(at[axis]) + double(row.radius) + grow;
   }
   sphere_boxes_.push_back(box);
+  sphere_ids_.push_back(placed.ids());
   sphere_keys_.push_back(
       BinKey::of(GeometryKind::kSphere, placed.material, placed.emissive(), Placing::kOnce));
 }
@@ -188,6 +191,7 @@ void GeometryRows::add_plane(const PlacedShape& placed) {
   row.parameter = placed.material.row;
   row.occludes = placed.material.passing == Passing::kSolid;
   planes_.push_back(row);
+  plane_ids_.push_back(placed.ids());
   plane_keys_.push_back(
       BinKey::of(GeometryKind::kPlane, placed.material, placed.emissive(), Placing::kOnce));
 }
@@ -213,6 +217,7 @@ void GeometryRows::add_shape(const PlacedShape& placed) {
     lights_.push_back(light);
   }
   analytic_.push_back(row);
+  analytic_ids_.push_back(placed.ids());
   analytic_boxes_.push_back(traced_bounds(shape, placed.placement, center_));
   analytic_keys_.push_back(BinKey::of(GeometryKind(uint32_t(GeometryKind::kQuadric) + row.kind),
                                       placed.material, placed.emissive(), Placing::kOnce));
@@ -230,6 +235,7 @@ void GeometryRows::finish(const BinKeys& keys, Scene& scene, std::vector<uint8_t
   scene.triangles.resize(n);
   if (!vertices_.empty()) scene.triangle_vertices.resize(n);
   scene.prim_bin.resize(n + spheres_.size() + planes_.size() + analytic_.size());
+  if (ids_) scene.prim_ids.resize(scene.prim_bin.size());
   scene.all_occlude = true;
 
   uint32_t prim = 0, vertex_row = 0;
@@ -243,26 +249,28 @@ void GeometryRows::finish(const BinKeys& keys, Scene& scene, std::vector<uint8_t
     for (; prim < end; ++prim) {
       scene.triangles.set(prim, triangles_[prim]);
       scene.prim_bin[prim] = bin;
+      if (ids_) scene.prim_ids[prim] = triangle_runs_[r].ids;
       if (see_through) occludes[prim] = 0;
       if (scene.bins[bin].geometry == GeometryKind::kTriangleVertex)
         scene.triangle_vertices.set(prim, vertices_[vertex_row++]);
     }
   }
   const auto set = [&](auto& table, const auto& rows, const std::vector<BinKey>& row_keys,
-                       const std::vector<uint32_t>& order) {
+                       const std::vector<SurfaceIds>& ids, const std::vector<uint32_t>& order) {
     table.resize(uint32_t(rows.size()));
     for (uint32_t r = 0; r < rows.size(); ++r, ++prim) {
       table.set(r, rows[order[r]]);
+      if (ids_) scene.prim_ids[prim] = ids[order[r]];
       ++scene.bins[scene.prim_bin[prim] = keys.bin(row_keys[order[r]])].primitives;
     }
   };
   const VeilsLast sphere_order(sphere_keys_), plane_order(plane_keys_);
-  set(scene.spheres, spheres_, sphere_keys_, sphere_order.rows);
-  set(scene.planes, planes_, plane_keys_, plane_order.rows);
+  set(scene.spheres, spheres_, sphere_keys_, sphere_ids_, sphere_order.rows);
+  set(scene.planes, planes_, plane_keys_, plane_ids_, plane_order.rows);
   scene.first_veil_sphere = sphere_order.first_veil;
   scene.first_veil_plane = plane_order.first_veil;
   const std::vector<uint32_t> shape_order = order_shapes(scene);
-  set(scene.shapes, analytic_, analytic_keys_, shape_order);
+  set(scene.shapes, analytic_, analytic_keys_, analytic_ids_, shape_order);
   build_shape_trees(sphere_order.rows, shape_order, scene);
   scene.degenerate_triangles += degenerate_;
 }

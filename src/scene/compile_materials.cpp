@@ -223,6 +223,12 @@ MaterialRef MaterialCompiler::build_plugin(const Plugin& plugin) {
 }
 
 MaterialRef MaterialCompiler::compile(uint32_t entry, const VolumesAround& volumes) {
+  MaterialRef made = compile_known(entry, volumes);
+  made.id = entry < description_.materials.size() ? entry + 1 : 0;
+  return made;
+}
+
+MaterialRef MaterialCompiler::compile_known(uint32_t entry, const VolumesAround& volumes) {
   const bool by_yart = description_.dialect == Dialect::kYart;
   // In YART a null surface is there: it has the default matte.
   const bool is_default = entry >= description_.materials.size() ||
@@ -250,7 +256,7 @@ MaterialRef MaterialCompiler::compile(uint32_t entry, const VolumesAround& volum
 std::optional<MaterialRef> MaterialCompiler::child(Parameters& p, std::string_view name) {
   const uint32_t row = p.material(name);
   if (row < description_.materials.size()) {
-    const MaterialRef made = compile(row, volumes_);
+    const MaterialRef made = compile_known(row, volumes_);
     if (split_depth(form_of(made)) < kMaxSplitDepth) return made;
     diagnostics_.error(p.loc(name),
                        fmt::format("materials are made of others more than {} times over: {} is "

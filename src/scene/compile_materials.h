@@ -110,6 +110,7 @@ class MaterialCompiler {
   Diagnostics& diagnostics() { return diagnostics_; }
 
  private:
+  MaterialRef compile_known(uint32_t entry, const VolumesAround& volumes);
   MaterialRef build(const Plugin& plugin);
   uint32_t split_row(const MaterialSplit& split);
   uint32_t split_depth(const MaterialForm& form) const;

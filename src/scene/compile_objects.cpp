@@ -244,11 +244,13 @@ void ObjectCompiler::add_keys(BinKeys& keys) const {
 }
 
 uint32_t ObjectCompiler::add_shapes(const SharedShapes::Instance& instance, const BinKeys& keys,
-                                    std::vector<InstanceShapeRow<Value>>& shapes) const {
+                                    std::vector<InstanceShapeRow<Value>>& shapes,
+                                    std::vector<uint32_t>& material_ids) const {
   const auto first = uint32_t(shapes.size());
   for (const Run& run : objects_[instance.object].runs) {
     const MaterialRef& material = shapes_.materials[instance.materials][run.mesh];
     shapes.push_back({keys.bin(key(run, material)), material.row, kNone});
+    material_ids.push_back(material.id);
   }
   return first;
 }
@@ -297,9 +299,10 @@ void ObjectCompiler::add_lights(const SharedShapes::Instance& instance,
   }
 }
 
-void ObjectCompiler::finish(const BinKeys& keys, Scene& scene,
+void ObjectCompiler::finish(const BinKeys& keys, bool ids, Scene& scene,
                             std::vector<LightRow<Value>>& lights) {
   Instances& out = scene.instances;
+  std::vector<uint32_t> object_ids, material_ids;
   std::vector<InstanceRow<Value>> rows;
   std::vector<InstanceShapeRow<Value>> shapes;
   std::vector<Map> maps;
@@ -314,11 +317,11 @@ void ObjectCompiler::finish(const BinKeys& keys, Scene& scene,
     row.object = instance.object;
     row.first_triangle = object.first_triangle;
     if (object.emissive) {
-      row.first_shape = add_shapes(instance, keys, shapes);
+      row.first_shape = add_shapes(instance, keys, shapes, material_ids);
       add_lights(instance, row, map, &shapes[row.first_shape], scene, lights);
     } else {
       const auto [first, is_new] = known.try_emplace({instance.object, instance.materials}, 0u);
-      if (is_new) first->second = add_shapes(instance, keys, shapes);
+      if (is_new) first->second = add_shapes(instance, keys, shapes, material_ids);
       row.first_shape = first->second;
     }
     for (size_t r = 0; r < object.runs.size(); ++r)
@@ -327,10 +330,15 @@ void ObjectCompiler::finish(const BinKeys& keys, Scene& scene,
     ++out.objects[instance.object].instances;
     extent = std::max(extent, double(row.extent));
     rows.push_back(row);
+    object_ids.push_back(instance.id);
     maps.push_back(map);
     boxes.push_back(placed_bounds(object, map));
   }
   if (rows.empty()) return;
+  if (ids) {
+    out.object_ids = std::move(object_ids);
+    out.material_ids = std::move(material_ids);
+  }
 
   // A ray's way through an instance is off by the roundings of the way there and through the maps:
   // some 40 of them, with origins within kFarExtents (kernels/traverse_rays.h); 64 are taken.

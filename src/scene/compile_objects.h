@@ -29,6 +29,7 @@ struct SharedShapes {
     uint32_t materials = kNone;
     Placement placement;
     SourceLoc loc;
+    uint32_t id = 0;  ///< SurfaceIds::object
   };
   std::vector<Object> objects;
   std::vector<Instance> instances;
@@ -64,7 +65,14 @@ class ShapePlacer {
 
   const ShapeInfo& info(uint32_t index);
   glm::dvec3 radiance(const ShapeEntry& entry, const CompiledShape& shape);
-  void place(uint32_t index, const Matrix& to_world, uint32_t material, SourceLoc loc);
+  void place(uint32_t index, const Matrix& to_world, uint32_t material, uint32_t object_id,
+             SourceLoc loc);
+  /// Of what the instance places.
+  uint32_t object_id(const InstanceEntry& instance) const {
+    return uint32_t(description_.shapes.size() +
+                    size_t(&instance - description_.instances.data())) +
+           1;
+  }
   void copy(const InstanceEntry& instance, uint32_t index);
   void note_mirrored_light(const PlacedShape& placed, bool mirrored, SourceLoc loc);
   Presence presence(const ShapeInfo& info, const MaterialRef& material) const;
@@ -78,6 +86,7 @@ class ShapePlacer {
   const Description& description_;
   const ColourModel& colour_;
   InstanceMode mode_;
+  bool keep_uv_;
   Diagnostics& diagnostics_;
   MaterialCompiler materials_;
   std::vector<ShapeInfo> shapes_;  // never resized: PlacedShape points into it
@@ -104,7 +113,8 @@ class ObjectCompiler {
   void add_keys(BinKeys& keys) const;
   /// Rows of the instances, the lights that they are, and the top tree, once scene.center and the
   /// bins are known.
-  void finish(const BinKeys& keys, Scene& scene, std::vector<LightRow<Value>>& lights);
+  /// ids: whether the instances get SurfaceIds.
+  void finish(const BinKeys& keys, bool ids, Scene& scene, std::vector<LightRow<Value>>& lights);
 
  private:
   /// One shape of an object: which of the object's triangles, and what kind.
@@ -138,7 +148,8 @@ class ObjectCompiler {
   BinKey key(const Run& run, const MaterialRef& material) const;
   /// Appends a row per shape; lights are not known yet. Returns the first.
   uint32_t add_shapes(const SharedShapes::Instance& instance, const BinKeys& keys,
-                      std::vector<InstanceShapeRow<Value>>& shapes) const;
+                      std::vector<InstanceShapeRow<Value>>& shapes,
+                      std::vector<uint32_t>& material_ids) const;
   /// Appends the instance's lights and writes where they begin into `shapes`, its rows.
   void add_lights(const SharedShapes::Instance& instance, const InstanceRow<Value>& row,
                   const Map& map, InstanceShapeRow<Value>* shapes, const Scene& scene,

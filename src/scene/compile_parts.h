@@ -83,6 +83,7 @@ struct MaterialRef {
   bool tangents = false;      ///< looks different from other sides: needs dp/du
   uint32_t split = kNone;     ///< row of Scene::splits
   Passing passing = Passing::kSolid;
+  uint32_t id = 0;  ///< SurfaceIds::material
 };
 
 // ---- Shapes (lxs 5) --------------------------------------------------------------------------
@@ -144,7 +145,9 @@ struct PlacedShape {
   Placement placement;
   bool reverse_orientation = false;
   MaterialRef material;
+  uint32_t object_id = 0;    ///< SurfaceIds::object
   glm::dvec3 radiance{0.0};  ///< bands; > 0 in one of them: emissive
+  SurfaceIds ids() const { return {object_id, material.id}; }
   bool emissive() const { return radiance.x > 0 || radiance.y > 0 || radiance.z > 0; }
 };
 
@@ -201,8 +204,9 @@ class BinKeys {
 /// Collects rows in scene space; see compile_geometry.cpp.
 class GeometryRows {
  public:
-  GeometryRows(const glm::dvec3& center, Diagnostics& diagnostics)
-      : center_(center), diagnostics_(diagnostics) {}
+  /// ids: whether the scene gets prim_ids.
+  GeometryRows(const glm::dvec3& center, bool ids, Diagnostics& diagnostics)
+      : center_(center), ids_(ids), diagnostics_(diagnostics) {}
   void add(const PlacedShape& placed);
   void add_keys(BinKeys& keys) const;
   /// Writes tables and the tree's input into the scene. `occludes` stays empty if all do.
@@ -225,8 +229,10 @@ class GeometryRows {
   struct Run {
     uint32_t first;
     BinKey key;
+    SurfaceIds ids;
   };
   glm::dvec3 center_;
+  bool ids_;
   Diagnostics& diagnostics_;
   std::vector<TriangleRow<Value>> triangles_;
   std::vector<Run> triangle_runs_;
@@ -235,6 +241,7 @@ class GeometryRows {
   std::vector<PlaneRow<Value>> planes_;
   std::vector<ShapeRow<Value>> analytic_;
   std::vector<BinKey> sphere_keys_, plane_keys_, analytic_keys_;
+  std::vector<SurfaceIds> sphere_ids_, plane_ids_, analytic_ids_;
   std::vector<TopBox> sphere_boxes_, analytic_boxes_;  ///< what rays meet lies within
   std::vector<LightRow<Value>> lights_;
   uint32_t degenerate_ = 0;

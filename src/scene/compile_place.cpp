@@ -33,6 +33,7 @@ ShapePlacer::ShapePlacer(const Description& description, const ColourModel& colo
     : description_(description),
       colour_(colour),
       mode_(options.instances),
+      keep_uv_(options.keep_uv),
       diagnostics_(diagnostics),
       materials_(description, colour, options, diagnostics),
       shapes_(description.shapes.size()),
@@ -43,7 +44,7 @@ void ShapePlacer::place_all() {
   for (uint32_t i = 0; i < description_.shapes.size(); ++i) {
     const ShapeEntry& entry = description_.shapes[i];
     if (entry.object == kNone)
-      place(i, entry.to_world, entry.material, entry.plugin.loc);
+      place(i, entry.to_world, entry.material, i + 1, entry.plugin.loc);
     else if (entry.object < members_.size())
       members_[entry.object].push_back(i);
   }
@@ -76,7 +77,8 @@ ShapePlacer::Presence ShapePlacer::presence(const ShapeInfo& info,
 void ShapePlacer::copy(const InstanceEntry& instance, uint32_t index) {
   const ShapeEntry& entry = description_.shapes[index];
   place(index, instance.to_world * entry.to_world,
-        instance.material != kNone ? instance.material : entry.material, instance.loc);
+        instance.material != kNone ? instance.material : entry.material, object_id(instance),
+        instance.loc);
   if (shapes_[index].shape) copied_ += shapes_[index].shape->mesh.triangles();
 }
 
@@ -139,6 +141,7 @@ bool ShapePlacer::place_shared(uint32_t shared, const InstanceEntry& instance) {
       materials.push_back(materials_.compile(
           instance.material != kNone ? instance.material : description_.shapes[i].material,
           {description_.shapes[i].interior, description_.shapes[i].exterior}));
+      if (keep_uv_) materials.back().uv = std::max(materials.back().uv, UvUse::kIfThere);
       same = same && presence(shapes_[i], materials.back()) ==
                          presence(shapes_[i], object.meshes[mesh++].material);
     }
@@ -152,11 +155,13 @@ bool ShapePlacer::place_shared(uint32_t shared, const InstanceEntry& instance) {
   make_placement(instance.to_world, instance.loc, "the instance", diagnostics_);
   for (const PlacedShape& mesh : object.meshes)
     note_mirrored_light(mesh, mesh.placement.mirrored != placement->mirrored, instance.loc);
-  shared_.instances.push_back({shared, known->second, *placement, instance.loc});
+  shared_.instances.push_back(
+      {shared, known->second, *placement, instance.loc, object_id(instance)});
   return true;
 }
 
-void ShapePlacer::place(uint32_t index, const Matrix& to_world, uint32_t material, SourceLoc loc) {
+void ShapePlacer::place(uint32_t index, const Matrix& to_world, uint32_t material,
+                        uint32_t object_id, SourceLoc loc) {
   const ShapeEntry& entry = description_.shapes[index];
   const std::string what = "shape \"" + entry.plugin.type + "\"";
   const ShapeInfo& info = this->info(index);
@@ -169,6 +174,8 @@ void ShapePlacer::place(uint32_t index, const Matrix& to_world, uint32_t materia
   placed.placement = *placement;
   placed.reverse_orientation = entry.reverse_orientation;
   placed.material = materials_.compile(material, {entry.interior, entry.exterior});
+  placed.object_id = object_id;
+  if (keep_uv_) placed.material.uv = std::max(placed.material.uv, UvUse::kIfThere);
   placed.radiance = info.radiance;
   if (presence(info, placed.material) == Presence::kAbsent) return;
   note_mirrored_light(placed, placed.placement.mirrored, loc);

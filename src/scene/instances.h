@@ -29,6 +29,8 @@ struct Instances {
   AlignedArray<TreeView> trees;
   Tree top;
   bool all_occlude = true;
+  // If asked for (CompileOptions::ids): SurfaceIds::object per row, ::material per row of shapes.
+  std::vector<uint32_t> object_ids, material_ids;
 
   bool empty() const { return rows.size() == 0; }
   /// Views into this object; valid while it lives.

@@ -1,10 +1,14 @@
 #include "wavefront/feature_recorder.h"
 
+#include <stdexcept>
+
 namespace yat {
 
 FeatureRecorder::FeatureRecorder(const Scene& scene, FeatureFilm* film, uint32_t rows)
     : scene_(scene), film_(film), rows_(rows), split_(sums_per_path(film) == 2) {
   if (!film_) return;
+  if (film_->has_ids() && scene.prim_ids.size() != scene.prim_bin.size())
+    throw std::logic_error("FeatureRecorder: the scene was compiled without ids");
   seen_.resize(rows);
 }
 
@@ -17,9 +21,18 @@ void FeatureRecorder::start(const SampleSum<Column>& sums, const uint32_t* slots
   }
 }
 
+SurfaceIds FeatureRecorder::ids_of(uint32_t prim, uint32_t instance) const {
+  if (instance == kNone) return scene_.prim_ids[prim];
+  const Instances& instances = scene_.instances;
+  const uint32_t shape = instances.rows.row(instance).first_shape + instances.triangle_shape[prim];
+  return {instances.object_ids[instance], instances.material_ids[shape]};
+}
+
 void FeatureRecorder::record_surfaces(const Surface<ConstColumn>& s,
-                                      const PathState<ConstColumn>& paths,
-                                      const SampleSum<Column>& sums, uint32_t n) {
+                                      const PathState<ConstColumn>& paths, const uint32_t* order,
+                                      const uint32_t* instance, const SampleSum<Column>& sums,
+                                      uint32_t n) {
+  const bool with_ids = film_->has_ids();
   const auto add = [&](Feature feature, size_t pixel, float x, float y, float z) {
     if (film_->has(feature)) film_->plane(feature).add(pixel, x, y, z);
   };
@@ -39,6 +52,10 @@ void FeatureRecorder::record_surfaces(const Surface<ConstColumn>& s,
     add(Feature::kPosition, pixel, float(double(s.pos_x[i]) + scene_.center.x),
         float(double(s.pos_y[i]) + scene_.center.y), float(double(s.pos_z[i]) + scene_.center.z));
     add(Feature::kUv, pixel, s.u[i], s.v[i], 0);
+    if (with_ids) {
+      const SurfaceIds ids = ids_of(s.prim[i], instance ? instance[order[i]] : kNone);
+      film_->ids().add(pixel, {paths.sample[i], ids.object, ids.material});
+    }
   }
 }
 

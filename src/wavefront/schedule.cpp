@@ -250,7 +250,8 @@ void Worker::shade_rows(const ShadePlan& plan, const ChunkRows& rows) {
   const uint32_t n = rows.n;
   const ParameterView parameters = parameters_of(plan, rows);
   if (features_.active() && !material_traits(plan.material).see_through) {
-    features_.record_surfaces(rows.surfaces, rows.paths, batch_.sums.columns(), n);
+    features_.record_surfaces(rows.surfaces, rows.paths, rows.order, rows.instance,
+                              batch_.sums.columns(), n);
     features_.turn_indirect(rows.paths.depth, rows.slots, n);
   }
   const Randoms<Column>& randoms = batch_.randoms.columns();
