@@ -3,3 +3,5 @@ yat_test(texture_steps LABELS per_isa LIBS yat_wavefront glm::glm SOURCES test_t
 yat_test(image_store LABELS fast LIBS yat_scene OpenImageIO::OpenImageIO SOURCES test_image_store.cpp)
 yat_test(texture_renders LABELS render statistics per_isa LIBS yat_wavefront OpenImageIO::OpenImageIO
          SOURCES test_texture_renders.cpp)
+yat_test(yart_textures LABELS fast LIBS yat_wavefront glm::glm OpenImageIO::OpenImageIO
+         SOURCES test_yart_textures.cpp)

@@ -34,6 +34,7 @@ target_sources(
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_texture_noise.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_texture_patterns.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_texture_spectral.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_texture_yart.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_textures.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/image_store.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/spectrum.cpp

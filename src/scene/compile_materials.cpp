@@ -222,7 +222,9 @@ MaterialRef MaterialCompiler::build_plugin(const Plugin& plugin) {
   return textured;
 }
 
-MaterialRef MaterialCompiler::compile(uint32_t entry, const VolumesAround& volumes) {
+MaterialRef MaterialCompiler::compile(uint32_t entry, const VolumesAround& volumes,
+                                      const Matrix& shape) {
+  textures_.set_shape(shape);
   MaterialRef made = compile_known(entry, volumes);
   made.id = entry < description_.materials.size() ? entry + 1 : 0;
   return made;
@@ -250,7 +252,10 @@ MaterialRef MaterialCompiler::compile_known(uint32_t entry, const VolumesAround&
     done_[key] = add_matte(*this, glm::dvec3(by_yart ? kYartDefaultKd : kDefaultKd), 0);
   }
   volumes_ = of_caller;
-  return *done_[key];
+  const MaterialRef made = *done_[key];
+  // On the next shape it is another material.
+  if (textures_.saw_shape()) done_.erase(key);
+  return made;
 }
 
 std::optional<MaterialRef> MaterialCompiler::child(Parameters& p, std::string_view name) {

@@ -34,7 +34,9 @@ class MaterialCompiler {
 
   /// entry: row of Description::materials, or kNone for the default matte. One material in several
   /// volumes is several rows if it looks at them.
-  MaterialRef compile(uint32_t entry, const VolumesAround& volumes = {});
+  /// `shape`: object to world of the shape, which YART's textures are mapped by.
+  MaterialRef compile(uint32_t entry, const VolumesAround& volumes = {},
+                      const Matrix& shape = Matrix(1.));
   /// Moves the tables into the scene, whose centre must be known.
   void finish(Scene& scene);
 

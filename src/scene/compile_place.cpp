@@ -173,7 +173,7 @@ void ShapePlacer::place(uint32_t index, const Matrix& to_world, uint32_t materia
   placed.loc = loc;
   placed.placement = *placement;
   placed.reverse_orientation = entry.reverse_orientation;
-  placed.material = materials_.compile(material, {entry.interior, entry.exterior});
+  placed.material = materials_.compile(material, {entry.interior, entry.exterior}, entry.to_world);
   placed.object_id = object_id;
   if (keep_uv_) placed.material.uv = std::max(placed.material.uv, UvUse::kIfThere);
   placed.radiance = info.radiance;

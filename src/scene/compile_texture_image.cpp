@@ -1,5 +1,7 @@
 // imagemap (lxs 8.3).
 
+#include "scene/compile_texture_image.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,31 +9,27 @@
 #include <glm/vec4.hpp>
 
 #include "kernels/textures/bands.h"
-#include "kernels/textures/image.h"
 #include "scene/compile_parts.h"
-#include "scene/compile_textures.h"
 
 namespace yat {
 
 namespace {
 
-enum class Filter : uint32_t { kNearest, kBilinear, kTrilinear };
-
-Filter read_filter(TextureContext& c) {
+ImageFilter read_filter(TextureContext& c) {
   const std::string name = c.p.text("filtertype", "bilinear");
-  if (name == "nearest") return Filter::kNearest;
-  if (name == "bilinear") return Filter::kBilinear;
-  if (name == "mipmap_trilinear") return Filter::kTrilinear;
+  if (name == "nearest") return ImageFilter::kNearest;
+  if (name == "bilinear") return ImageFilter::kBilinear;
+  if (name == "mipmap_trilinear") return ImageFilter::kTrilinear;
   if (name == "mipmap_ewa") {
     c.diagnostics().note(c.p.loc("filtertype"),
                          "filtertype \"mipmap_ewa\": filtered as \"mipmap_trilinear\"");
-    return Filter::kTrilinear;
+    return ImageFilter::kTrilinear;
   }
   c.diagnostics().warning(
       c.p.loc("filtertype"),
       fmt::format("{}: unknown filtertype \"{}\"{}: bilinear is used", c.what(), name,
                   did_you_mean(name, {"nearest", "bilinear", "mipmap_trilinear", "mipmap_ewa"})));
-  return Filter::kBilinear;
+  return ImageFilter::kBilinear;
 }
 
 ImageWrap read_wrap(TextureContext& c) {
@@ -63,23 +61,42 @@ std::array<float, 4> read_channel(TextureContext& c) {
 }
 
 TextureValue image(TextureContext& c, bool colour, bool normal_map) {
-  const std::string name = c.p.text("filename", "");
-  auto gain = double(c.p.number("gain", 1)), gamma = double(c.p.number("gamma", 1));
-  const Filter filter = read_filter(c);
-  const ImageWrap wrap = read_wrap(c);
-  const std::array<float, 4> weights = colour ? std::array<float, 4>{} : read_channel(c);
+  ImageLook look{.colour = colour, .normal_map = normal_map};
+  look.gain = double(c.p.number("gain", 1));
+  look.gamma = double(c.p.number("gamma", 1));
+  look.filter = read_filter(c);
+  look.wrap = read_wrap(c);
+  if (!colour) look.weights = read_channel(c);
   c.p.accept({"channel", "maxanisotropy", "discardmipmaps"});
-  if (!(gamma > 0) || !std::isfinite(gamma)) {
+  if (!(look.gamma > 0) || !std::isfinite(look.gamma)) {
     c.diagnostics().warning(
         c.p.loc("gamma"),
-        fmt::format("{}: \"gamma\" is {}, but must be above 0: 1 is used", c.what(), gamma));
-    gamma = 1;
+        fmt::format("{}: \"gamma\" is {}, but must be above 0: 1 is used", c.what(), look.gamma));
+    look.gamma = 1;
   }
-  const bool mips = filter == Filter::kTrilinear;
   // Read before anything can fail, so that its parameters count as used.
-  const TextureGraph::Input at = map_2d(c, mips);
+  return image_texture(c, look, map_2d(c, look.filter == ImageFilter::kTrilinear));
+}
 
+TextureValue imagemap(TextureContext& c) {
+  if (c.colour() && c.textures.description().dialect == Dialect::kYart) return yart_imagemap(c);
+  return image(c, c.colour(), false);
+}
+/// Its colours are numbers: no bands.
+TextureValue normalmap(TextureContext& c) {
+  return image(c, true, true);
+}
+
+constexpr TextureClass kClasses[] = {{"imagemap", &imagemap}, {"normalmap", &normalmap}};
+
+}  // namespace
+
+TextureValue image_texture(TextureContext& c, const ImageLook& look, TextureGraph::Input at) {
+  const std::string name = c.p.text("filename", "");
+  const bool mips = look.filter == ImageFilter::kTrilinear;
+  const double gain = look.gain, gamma = look.gamma;
   const SourceLoc loc = c.p.loc("filename");
+  const bool colour = look.colour;
   const TextureValue white =
       colour ? TextureValue::of_colour(glm::dvec3(1.)) : TextureValue::number(1);
   const std::string path = find_data_file(name, loc, c.textures.description(), c.diagnostics());
@@ -107,28 +124,28 @@ TextureValue image(TextureContext& c, bool colour, bool normal_map) {
   parameters.gain =
       float(format == TexelFormat::kByte1 || format == TexelFormat::kByte4 ? gain / 255 : gain);
   parameters.gamma = float(gamma);
-  uint32_t variant = image_variant(format, uint32_t(filter), wrap);
+  uint32_t variant = image_variant(format, uint32_t(look.filter), look.wrap);
   if (gamma == 1) variant |= kImageLinear;
   TextureValue value;
   value.colour = colour;
-  value.normal_map = normal_map;
+  value.normal_map = look.normal_map;
   const auto decode = [&](double x) { return std::pow(std::max(0., gain * x), gamma); };
   const glm::dvec3 mean = images.mean(image);
   value.least = 0;
-  value.most = decode(wrap == ImageWrap::kWhite ? std::max(1., images.largest(image))
-                                                : images.largest(image));
+  value.most = decode(look.wrap == ImageWrap::kWhite ? std::max(1., images.largest(image))
+                                                     : images.largest(image));
   const bool one_channel = images.one_channel(image);
   std::vector<TextureGraph::Input> inputs = {at};
   if (mips) inputs.push_back({at.node, 2});
   if (!colour) {
     variant |= kImageNumber;
-    parameters.r = weights[0];
-    parameters.g = weights[1];
-    parameters.b = weights[2];
-    parameters.a = weights[3];
+    parameters.r = look.weights[0];
+    parameters.g = look.weights[1];
+    parameters.b = look.weights[2];
+    parameters.a = look.weights[3];
     // A grey file has no alpha: it counts as 1.
-    if (one_channel && weights[3] == 1) return TextureValue::number(decode(1));
-    const glm::dvec4 w(weights[0], weights[1], weights[2], weights[3]);
+    if (one_channel && look.weights[3] == 1) return TextureValue::number(decode(1));
+    const glm::dvec4 w(look.weights[0], look.weights[1], look.weights[2], look.weights[3]);
     value.constant = glm::dvec3(decode(glm::dot(w, glm::dvec4(mean, 1.))));
     value.node = c.graph().add<ImageParameters>(StepKind::kImage, variant, parameters, inputs, 1);
     return value;
@@ -139,22 +156,10 @@ TextureValue image(TextureContext& c, bool colour, bool normal_map) {
   // Bands of a grey are that grey.
   const bool same =
       c.textures.colour().reflectance.red[0] == 1 && c.textures.colour().reflectance.red[1] == 0;
-  if (!one_channel && !same && !normal_map)
+  if (!one_channel && !same && !look.normal_map)
     value.node = c.graph().add<BandsParameters>(StepKind::kBands, 0, {0u}, {{value.node, 0}}, 3);
   return value;
 }
-
-TextureValue imagemap(TextureContext& c) {
-  return image(c, c.colour(), false);
-}
-/// Its colours are numbers: no bands.
-TextureValue normalmap(TextureContext& c) {
-  return image(c, true, true);
-}
-
-constexpr TextureClass kClasses[] = {{"imagemap", &imagemap}, {"normalmap", &normalmap}};
-
-}  // namespace
 
 std::span<const TextureClass> image_textures() {
   return kClasses;

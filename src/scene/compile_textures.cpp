@@ -65,7 +65,8 @@ std::optional<TextureValue> TextureCompiler::value(uint32_t row, int depth) {
     p.accept_all();
   }
   p.report_unused();
-  done_[row] = made;
+  // What depends on the shape is another texture on the next.
+  if (!saw_shape_) done_[row] = made;
   return made;
 }
 

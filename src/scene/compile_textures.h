@@ -84,6 +84,18 @@ class TextureCompiler {
   };
   std::vector<Varying>& varying() { return varying_; }
 
+  /// YART maps textures by the space of the shape that they are on: object to world of the shape
+  /// that is being compiled, and whether a texture has looked at it since it was last set.
+  void set_shape(const Matrix& to_world) {
+    shape_to_world_ = to_world;
+    saw_shape_ = false;
+  }
+  const Matrix& shape_to_world() {
+    saw_shape_ = true;
+    return shape_to_world_;
+  }
+  bool saw_shape() const { return saw_shape_; }
+
   TextureUse use() const { return use_; }
   const Description& description() const { return description_; }
   const ColourModel& colour() const { return colour_; }
@@ -103,6 +115,8 @@ class TextureCompiler {
   ImageStore images_;
   std::vector<std::optional<std::optional<TextureValue>>> done_;  ///< outer: compiled yet?
   std::vector<Varying> varying_;
+  Matrix shape_to_world_{1.};
+  bool saw_shape_ = false;
 };
 
 /// What the compiler of a texture class works with.
