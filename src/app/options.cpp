@@ -49,8 +49,8 @@ constexpr OptionText kRenderOptions[] = {
     {"--instances", "auto|copy|share", "auto",
      "objects placed by ObjectInstance: copied, stored once, or as their size says"},
     {"--light-choice", "auto|power|tree", "auto",
-     "lights a surface asks: by power, or by a tree that knows distances too; auto: as many as "
-     "they are"},
+     "how a lamp is chosen: by power, or by a tree that knows distances too; auto: by their "
+     "number"},
     {"--texture-cache", "MB", "2048",
      "most memory for the texels of images; the finest levels are left out beyond it"},
     {"--energy-compensation", "auto|on|off", "auto",
@@ -88,8 +88,8 @@ constexpr OptionText kInfoOptions[] = {
     {"--instances", "auto|copy|share", "auto",
      "objects placed by ObjectInstance: copied, stored once, or as their size says"},
     {"--light-choice", "auto|power|tree", "auto",
-     "lights a surface asks: by power, or by a tree that knows distances too; auto: as many as "
-     "they are"},
+     "how a lamp is chosen: by power, or by a tree that knows distances too; auto: by their "
+     "number"},
     {"--texture-cache", "MB", "2048",
      "most memory for the texels of images; the finest levels are left out beyond it"},
     {"--isa", "NAME", "YAT_ISA, or the best here", "instruction set of the kernels"},
