@@ -151,7 +151,12 @@ mkdir -p "$output"
 [ $list = 1 ] || : > "$output/figures.txt"
 if [ "$against" != luxrender ]; then
   while read -r reference scene; do
-    [ -z "$reference" ] || sheet yart "$reference" "$scene" --compat yart --max-depth 10
+    case $reference in
+      '') ;;
+      # The first ones are by its ray tracer, the others by its path tracer.
+      tpe1/*) sheet yart "$reference" "$scene" --compat yart --max-depth 10 --integrator direct ;;
+      *) sheet yart "$reference" "$scene" --compat yart --max-depth 10 ;;
+    esac
   done <<< "$yart"
 fi
 if [ "$against" != yart ]; then
