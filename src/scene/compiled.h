@@ -255,23 +255,23 @@ static_assert(sizeof(kLightKindNames) / sizeof(*kLightKindNames) == uint32_t(Lig
 
 /// One light: one emissive triangle, a sphere, a point, a direction, an environment. Fields by
 /// kind:
-///   triangle    a = p0, b = p1 - p0, c = p2 - p0 (b x c points where it shines), extra = area
-///   [m2];
-///               in an instance, further = what the rounding of its transform adds to the distance
-///               that a ray keeps off it [m]
+///   triangle    a = p0, b = p1 - p0, c = p2 - p0 (b x c points where it shines),
+///               extra = area [m2]; in an instance, further = what the rounding of its transform
+///               adds to the distance that a ray keeps off it [m]
 ///   sphere      a = centre, extra = radius, b_x = 1 if it shines inwards
-///   point       a = position; the irradiance at distance d on a surface that faces it is radiance
-///   /
-///               (b_x d^2 + b_y): b = (1, 0), radiance = intensity [W/sr], or without fall-off (0,
-///               1)
+///   point       a = position; a surface at distance d that faces it gets the irradiance
+///               radiance / (b_x d^2 + b_y): b = (1, 0) and radiance = intensity [W/sr],
+///               or b = (0, 1), no fall-off
 ///   distant     a = unit direction towards the light; radiance holds the irradiance on a surface
 ///               that faces it (theta 0), or radiance of a disc with cos(theta) in extra < 1
-///   spot        a = position, b = unit axis, extra = cosine of the cone, c_x = 1 / (cosine where
-///               the falloff begins - extra), finite; radiance holds intensity on the axis
-///   mapped point  a = position, extra = the map's mean, c_x = map row (as bits); radiance holds
-///   the mean intensity projection  a = position, c_x = map row (as bits), b_x, b_y = half of the
-///   window at distance 1,
-///               b_z = flux of a white picture of intensity scale 1, extra = 1 / LuxRender's area
+///   spot        a = position, b = unit axis, extra = cosine of the cone,
+///               c_x = 1 / (cosine where the falloff begins - extra), finite;
+///               radiance holds the intensity on the axis
+///   mapped point  a = position, extra = the map's mean, c_x = map row (as bits);
+///               radiance holds the mean intensity
+///   projection  a = position, c_x = map row (as bits), b_x, b_y = half of the window at
+///               distance 1, b_z = flux of a white picture of intensity scale 1,
+///               extra = 1 / LuxRender's area
 ///   shape       a_x = its row of ShapesView::rows, as bits; extra = area [m2]
 ///   constant    radiance alone
 ///   image       c_x = map row (as bits), extra = mean luminance, radiance included
