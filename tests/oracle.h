@@ -12,10 +12,10 @@
 
 namespace yat {
 
-/// Share of paths whose radiance agrees with the reference's to 1e-4 of it. As the random numbers
-/// are the same, the noise of the whole picture cancels too: its mean must agree closely.
-inline double agreement(const Scene& scene, const Plan& plan, uint32_t samples,
-                        double largest_bias) {
+/// Share of paths whose radiance agrees with the reference's to `tolerance` of it. As the random
+/// numbers are the same, the noise of the whole picture cancels too: its mean must agree closely.
+inline double agreement(const Scene& scene, const Plan& plan, uint32_t samples, double largest_bias,
+                        double tolerance = 1e-4) {
   const uint32_t width = scene.film.crop_width(), height = scene.film.crop_height();
   uint64_t same = 0;
   double difference = 0, total = 0;
@@ -26,7 +26,7 @@ inline double agreement(const Scene& scene, const Plan& plan, uint32_t samples,
         const glm::dvec3 expected = reference_sample(scene, plan, x, y, sample);
         const float* p = &rgb[3 * (size_t(y) * width + x)];
         const glm::dvec3 found(p[0], p[1], p[2]);
-        same += glm::length(found - expected) <= 1e-4 * glm::length(expected);
+        same += glm::length(found - expected) <= tolerance * glm::length(expected);
         difference += found.x + found.y + found.z - (expected.x + expected.y + expected.z);
         total += expected.x + expected.y + expected.z;
       }

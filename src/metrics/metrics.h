@@ -31,26 +31,27 @@ struct ImageError {
   uint64_t not_finite = 0;     ///< pixels left out
 };
 
-/// Throws Error if the sizes differ. The deviation that outliers are counted by is 1.4826 times the
-/// median over pixels of |x - r| / sqrt(r^2 + epsilon), in luminance: what a normal distribution
-/// has, and rare samples cannot move it.
+/// Throws Error if the sizes differ or no pixel is finite in both. The deviation that outliers are
+/// counted by is 1.4826 times the median over pixels of |x - r| / sqrt(r^2 + epsilon), in
+/// luminance: what a normal distribution has, and rare samples cannot move it.
 ImageError image_error(const Image& picture, const Image& reference);
 
-/// Threshold for the pixels of two pictures, in display values or radiance as the files hold them:
-/// `idiff` of OpenImageIO has the same words.
+/// Thresholds for the pixels of two pictures, in linear light as Image holds them. The words are
+/// those of OpenImageIO's `idiff`.
 struct Thresholds {
   double each = 0;     ///< largest difference of any channel that is let pass
   double percent = 0;  ///< of the pixels may go beyond `each`
   double any = 1e30;   ///< beyond it one pixel suffices
 };
 
-/// Pixels beyond a threshold; of pixels that are not finite in one of both, all.
+/// Pixels beyond a threshold. One that is not finite in either picture is beyond all.
 struct PixelCount {
   uint64_t beyond_each = 0, beyond_any = 0;
   bool fails(const Thresholds& t, size_t pixels) const {
     return beyond_any > 0 || double(beyond_each) > t.percent / 100 * double(pixels);
   }
 };
+/// Throws Error if the sizes differ.
 PixelCount count_beyond(const Image& picture, const Image& reference, const Thresholds& t);
 
 }  // namespace yat
