@@ -79,6 +79,14 @@ TEST(Options, EveryOptionIsRead) {
   EXPECT_EQ(a.trace_file, "t.json");
   EXPECT_EQ(a.progress, ProgressKind::kJson);
   EXPECT_EQ(a.verbosity, Verbosity::kVerbose);
+  const Arguments ways = parse({"render", "a.lxs", "--light-choice", "uniform", "--light-sampling",
+                                "bsdf", "--roulette", "off"})
+                             .arguments;
+  EXPECT_EQ(ways.light_choice, LightChoosing::kUniform);
+  EXPECT_EQ(ways.light_sampling, LightSampling::kBsdf);
+  EXPECT_EQ(ways.roulette_depth, kNoRoulette);
+  EXPECT_EQ(parse({"render", "a.lxs", "--roulette", "0"}).arguments.roulette_depth, 0u);
+  EXPECT_EQ(parse({"render", "a.lxs"}).arguments.roulette_depth, TransportOptions{}.roulette_depth);
   const Arguments range = parse({"render", "a.lxs", "--samples-range", "5,9", "-q"}).arguments;
   EXPECT_EQ(range.samples_range->first, 5u);
   EXPECT_EQ(range.samples_range->end, 9u);
@@ -109,6 +117,10 @@ TEST(Options, MistakesNameTheOptionAndTheWayOut) {
   EXPECT_EQ(usage_error({"render", "a.lxs", "--samples-range", "0,4", "--spp", "4"}),
             "--samples-range says which samples to take: leave out --spp and --time");
   EXPECT_EQ(usage_error({"render", "a.lxs", "-v", "-q"}), "-v and -q exclude each other");
+  EXPECT_EQ(usage_error({"render", "a.lxs", "--light-sampling", "both"}),
+            "--light-sampling both: unknown; choose from mis, lights, bsdf");
+  EXPECT_EQ(usage_error({"render", "a.lxs", "--roulette", "of"}),
+            "--roulette of: \"of\" is not a number that fits here");
   EXPECT_NE(usage_error({"render", "a.lxs", "--thread", "2"}).find("did you mean \"--threads\"?"),
             std::string::npos);
   EXPECT_NE(usage_error({"render"}).find("SCENE"), std::string::npos);
@@ -309,7 +321,20 @@ TEST(Report, ReplayCropsToTheVeryPixel) {
       EXPECT_EQ(std::ceil(float(width) * x1), float(x + 1)) << command;
       EXPECT_NE(command.find("--samples-range 3,4"), std::string::npos);
       EXPECT_NE(command.find("--compat luxrender --colour bands --seed 7"), std::string::npos);
+      EXPECT_EQ(command.find("--light"), std::string::npos);
     }
+}
+
+TEST(Report, ReplayNamesWhatIsNotAsUsual) {
+  RenderReport report = report_with_drops();
+  report.light_choice = LightChoosing::kTree;
+  report.light_sampling = LightSampling::kBsdf;
+  report.transport.roulette_depth = kNoRoulette;
+  EXPECT_NE(replay_commands(report).at(0).find(
+                " --light-choice tree --light-sampling bsdf --roulette off "),
+            std::string::npos);
+  report.transport.roulette_depth = 5;
+  EXPECT_NE(replay_commands(report).at(0).find(" --roulette 5 "), std::string::npos);
 }
 
 TEST(Report, StatsAreTheRecordOfABenchmark) {

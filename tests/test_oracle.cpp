@@ -47,6 +47,21 @@ TEST_P(Oracle, OpenAirPicturesAgree) {
   expect_same_picture(scene, kernels(), 6, 64, 8);
 }
 
+// Light found in one way only, in a scene with light of all sorts around it and lamps that are met.
+TEST_P(Oracle, PathsOfEachWayToFindLightAgreeOneByOne) {
+  for (const std::string& text : {everything_text(32, 24), open_air_text(32, 24)}) {
+    const Scene scene = compile_text(text, kernels());
+    for (const LightSampling ways : {LightSampling::kLights, LightSampling::kBsdf}) {
+      PlanOptions options;
+      options.max_depth = 6;
+      options.seed = 5;
+      options.light_sampling = ways;
+      options.roulette_depth = ways == LightSampling::kLights ? kNoRoulette : 1;
+      EXPECT_GT(agreement(scene, make_plan(scene, kernels(), options), 4, 1e-2), .96);
+    }
+  }
+}
+
 TEST_P(Oracle, DirectPathsAgreeOneByOne) {
   const Scene scene = compile_text(everything_text(32, 24), kernels());
   PlanOptions options;

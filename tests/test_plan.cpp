@@ -71,6 +71,37 @@ TEST(Plan, WithoutVerticesNoLightIsSampled) {
   EXPECT_NE(describe_plan(plan, scene).find("paths end at their first vertex"), std::string::npos);
 }
 
+TEST(Plan, LightFoundByChanceAsksNone) {
+  const KernelTable& kernels = select_kernels();
+  PlanOptions options;
+  options.light_sampling = LightSampling::kBsdf;
+  const Scene lamp = compile_text(pinhole_room("AttributeBegin\n" + light_text("1 1 1") +
+                                               sphere_text("0 0 .5", .2) + "AttributeEnd\n"),
+                                  kernels);
+  const Plan plan = make_plan(lamp, kernels, options);
+  EXPECT_FALSE(plan.lights);
+  for (const BinPlan& bin : plan.bins) EXPECT_FALSE(bin.sample_lights);
+  EXPECT_NE(describe_plan(plan, lamp).find("light is found by chance"), std::string::npos);
+  // A point is found by no ray.
+  const Scene point =
+      compile_text(pinhole_room("LightSource \"point\" \"color L\" [1 1 1]\n"), kernels);
+  EXPECT_TRUE(make_plan(point, kernels, options).lights);
+}
+
+TEST(Plan, RouletteMayBeOff) {
+  const KernelTable& kernels = select_kernels();
+  const Scene scene = compile_text(pinhole_room("LightSource \"point\"\n"), kernels);
+  PlanOptions options;
+  options.max_depth = 30;
+  EXPECT_TRUE(make_plan(scene, kernels, options).bins[1].draw_roulette);
+  options.roulette_depth = 30;
+  EXPECT_FALSE(make_plan(scene, kernels, options).bins[1].draw_roulette);
+  options.roulette_depth = kNoRoulette;
+  const Plan plan = make_plan(scene, kernels, options);
+  EXPECT_FALSE(plan.bins[1].draw_roulette);
+  EXPECT_NE(describe_plan(plan, scene).find("--roulette off"), std::string::npos);
+}
+
 TEST(Plan, ATableWithoutANeededKernelIsRefused) {
   KernelTable kernels = select_kernels();
   const Scene scene = compile_text(everything_text(8, 8), kernels);

@@ -75,6 +75,8 @@ void compile(const Arguments& arguments, const KernelTable& kernels, ThreadPool&
   plan.sample_set = sample_set(arguments, loaded.scene.film);
   plan.max_depth = arguments.max_depth.value_or(uint32_t(std::max(0, loaded.scene.max_depth)));
   plan.seed = arguments.seed;
+  plan.light_sampling = arguments.light_sampling;
+  plan.roulette_depth = arguments.roulette_depth;
   loaded.plan = make_plan(loaded.scene, kernels, plan);
 }
 

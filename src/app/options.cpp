@@ -48,9 +48,15 @@ constexpr OptionText kRenderOptions[] = {
     {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
     {"--instances", "auto|copy|share", "auto",
      "objects placed by ObjectInstance: copied, stored once, or as their size says"},
-    {"--light-choice", "auto|power|tree", "auto",
-     "how a lamp is chosen: by power, or by a tree that knows distances too; auto: by their "
-     "number"},
+    {"--light-choice", "auto|power|tree|uniform", "auto",
+     "how a lamp is chosen: by power, by a tree that knows distances too, or each alike; auto: by "
+     "their number"},
+    {"--light-sampling", "mis|lights|bsdf", "mis",
+     "how light is found: by asking lamps and by chance, weighted; by asking alone; by chance "
+     "alone. To compare and to debug: mis is the least noisy"},
+    {"--roulette", "N|off", "3",
+     "vertex from which on dim paths end by chance, brighter survivors making up for it; off: "
+     "paths go on to --max-depth"},
     {"--texture-cache", "MB", "2048",
      "most memory for the texels of images; the finest levels are left out beyond it"},
     {"--energy-compensation", "auto|on|off", "auto",
@@ -87,9 +93,15 @@ constexpr OptionText kInfoOptions[] = {
     {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
     {"--instances", "auto|copy|share", "auto",
      "objects placed by ObjectInstance: copied, stored once, or as their size says"},
-    {"--light-choice", "auto|power|tree", "auto",
-     "how a lamp is chosen: by power, or by a tree that knows distances too; auto: by their "
-     "number"},
+    {"--light-choice", "auto|power|tree|uniform", "auto",
+     "how a lamp is chosen: by power, by a tree that knows distances too, or each alike; auto: by "
+     "their number"},
+    {"--light-sampling", "mis|lights|bsdf", "mis",
+     "how light is found: by asking lamps and by chance, weighted; by asking alone; by chance "
+     "alone. To compare and to debug: mis is the least noisy"},
+    {"--roulette", "N|off", "3",
+     "vertex from which on dim paths end by chance, brighter survivors making up for it; off: "
+     "paths go on to --max-depth"},
     {"--texture-cache", "MB", "2048",
      "most memory for the texels of images; the finest levels are left out beyond it"},
     {"--isa", "NAME", "YAT_ISA, or the best here", "instruction set of the kernels"},
@@ -139,10 +151,15 @@ constexpr std::array<std::pair<std::string_view, EnergyCompensation>, 3> kCompen
     {{"auto", EnergyCompensation::kAuto},
      {"on", EnergyCompensation::kOn},
      {"off", EnergyCompensation::kOff}}};
-constexpr std::array<std::pair<std::string_view, LightChoosing>, 3> kLightChoices = {
+constexpr std::array<std::pair<std::string_view, LightChoosing>, 4> kLightChoices = {
     {{"auto", LightChoosing::kAuto},
      {"power", LightChoosing::kPower},
-     {"tree", LightChoosing::kTree}}};
+     {"tree", LightChoosing::kTree},
+     {"uniform", LightChoosing::kUniform}}};
+constexpr std::array<std::pair<std::string_view, LightSampling>, 3> kLightSamplings = {
+    {{"mis", LightSampling::kBoth},
+     {"lights", LightSampling::kLights},
+     {"bsdf", LightSampling::kBsdf}}};
 constexpr std::array<std::pair<std::string_view, ToneMap>, 9> kToneMaps = {
     {{"linear", ToneMap::kLinear},
      {"reinhard", ToneMap::kReinhard},
@@ -213,8 +230,8 @@ std::array<T, N> numbers(std::string_view option, std::string_view text, char se
 /// Text of every option as given; read into Arguments once all are known.
 struct Given {
   std::string spp, samples_range, time, threads, integrator, max_depth, sampler, sample_set, compat,
-      colour, seed, resolution, crop, instances, light_choice, texture_cache, compensation, tree,
-      tone_map, exposure, aov, progress;
+      colour, seed, resolution, crop, instances, light_choice, light_sampling, roulette,
+      texture_cache, compensation, tree, tone_map, exposure, aov, progress;
   bool verbose = false, quiet = false;
 };
 
@@ -255,6 +272,8 @@ void add_shared(Adder& add, Arguments& arguments, Given& given) {
   add("--crop", given.crop);
   add("--instances", given.instances);
   add("--light-choice", given.light_choice);
+  add("--light-sampling", given.light_sampling);
+  add("--roulette", given.roulette);
   add("--texture-cache", given.texture_cache);
   add("--isa", arguments.isa);
   add("--tree", given.tree);
@@ -372,6 +391,12 @@ void read_given(const Given& given, Arguments& to) {
     to.instances = by_name("--instances", given.instances, kInstanceModes);
   if (!given.light_choice.empty())
     to.light_choice = by_name("--light-choice", given.light_choice, kLightChoices);
+  if (!given.light_sampling.empty())
+    to.light_sampling = by_name("--light-sampling", given.light_sampling, kLightSamplings);
+  if (!given.roulette.empty())
+    to.roulette_depth = given.roulette == "off" ? kNoRoulette
+                                                : number<uint32_t>("--roulette", given.roulette,
+                                                                   given.roulette, 0, 65535);
   if (!given.texture_cache.empty())
     to.image_bytes = uint64_t(number<uint32_t>("--texture-cache", given.texture_cache,
                                                given.texture_cache, 1u, 8191u))
@@ -501,6 +526,12 @@ std::string_view sampler_name(SamplerKind sampler) {
 }
 std::string_view colour_name(ColourMode colour) {
   return name_of(colour, kColourModes);
+}
+std::string_view light_choice_name(LightChoosing choosing) {
+  return name_of(choosing, kLightChoices);
+}
+std::string_view light_sampling_name(LightSampling ways) {
+  return name_of(ways, kLightSamplings);
 }
 std::string_view dialect_name(Dialect dialect) {
   return name_of(dialect, kDialects);

@@ -62,6 +62,8 @@ struct Arguments {
   TreeChoice tree = TreeChoice::kFromScene;
   InstanceMode instances = InstanceMode::kAuto;
   LightChoosing light_choice = LightChoosing::kAuto;
+  LightSampling light_sampling = LightSampling::kBoth;
+  uint32_t roulette_depth = TransportOptions{}.roulette_depth;
   uint64_t image_bytes = ImageStore::kDefaultLimit;  ///< --texture-cache
   EnergyCompensation compensation = EnergyCompensation::kAuto;
   std::string isa;
@@ -91,6 +93,8 @@ CommandLine parse_command_line(int argc, const char* const* argv);
 std::string_view integrator_name(Integrator integrator);
 std::string_view sampler_name(SamplerKind sampler);
 std::string_view colour_name(ColourMode colour);
+std::string_view light_choice_name(LightChoosing choosing);
+std::string_view light_sampling_name(LightSampling ways);
 std::string_view dialect_name(Dialect dialect);
 std::string_view tone_map_name(ToneMap tone_map);
 

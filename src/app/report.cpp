@@ -127,6 +127,24 @@ std::string summary_text(const RenderReport& report, Verbosity verbosity) {
   return text;
 }
 
+namespace {
+
+/// " --light-sampling bsdf": what decides about the ways of paths, where it is not as usual.
+std::string unusual_options(const RenderReport& report) {
+  std::string text;
+  if (report.light_choice != LightChoosing::kAuto)
+    text += fmt::format(" --light-choice {}", light_choice_name(report.light_choice));
+  if (report.light_sampling != LightSampling::kBoth)
+    text += fmt::format(" --light-sampling {}", light_sampling_name(report.light_sampling));
+  if (report.transport.roulette_depth != TransportOptions{}.roulette_depth)
+    text += report.transport.roulette_depth == kNoRoulette
+                ? " --roulette off"
+                : fmt::format(" --roulette {}", report.transport.roulette_depth);
+  return text;
+}
+
+}  // namespace
+
 std::vector<std::string> replay_commands(const RenderReport& report) {
   std::vector<std::string> commands;
   const DropLog& drops = report.totals.drops;
@@ -136,7 +154,8 @@ std::vector<std::string> replay_commands(const RenderReport& report) {
     const double width = report.film.width, height = report.film.height;
     commands.push_back(fmt::format(
         "yat render {} --resolution {}x{} --crop {:.9g},{:.9g},{:.9g},{:.9g} --samples-range {},{} "
-        "--integrator {} --max-depth {} --sampler {}{} --compat {} --colour {} --seed {} --isa {}",
+        "--integrator {} --max-depth {} --sampler {}{}{} --compat {} --colour {} --seed {} --isa "
+        "{}",
         report.scene, report.film.width, report.film.height, std::max(0., (x - .5) / width),
         std::min(1., (x + .5) / width), std::max(0., (y - .5) / height),
         std::min(1., (y + .5) / height), drops.entry[i].sample, drops.entry[i].sample + 1,
@@ -144,8 +163,8 @@ std::vector<std::string> replay_commands(const RenderReport& report) {
         sampler_name(report.sampler),
         is_stratified(report.sampler) ? fmt::format(" --sample-set {}", report.sample_set)
                                       : std::string(),
-        dialect_name(report.dialect), colour_name(report.colour), report.transport.seed,
-        report.isa));
+        unusual_options(report), dialect_name(report.dialect), colour_name(report.colour),
+        report.transport.seed, report.isa));
   }
   return commands;
 }

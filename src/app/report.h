@@ -26,6 +26,8 @@ struct RenderReport {
   ColourMode colour = ColourMode::kBands;
   Dialect dialect = Dialect::kLuxRender;
   TransportOptions transport;
+  LightSampling light_sampling = LightSampling::kBoth;
+  LightChoosing light_choice = LightChoosing::kAuto;
   std::string isa;
   uint32_t lanes = 0, threads = 0;
   PhaseTimes time;

@@ -66,6 +66,8 @@ RenderReport report_of(const Arguments& arguments, const Loaded& loaded, const T
   report.colour = colour_mode(arguments);
   report.dialect = arguments.dialect;
   report.transport = loaded.plan.transport;
+  report.light_sampling = loaded.plan.light_sampling;
+  report.light_choice = arguments.light_choice;
   report.isa = loaded.plan.kernels->isa;
   report.lanes = loaded.plan.kernels->lanes;
   report.threads = pool.threads();

@@ -72,6 +72,11 @@ std::string stats_json(const RenderReport& report) {
       {"integrator", integrator_name(report.integrator)},
       {"max_depth", report.transport.max_depth},
       {"sampler", sampler_name(report.sampler)},
+      {"light_choice", light_choice_name(report.light_choice)},
+      {"light_sampling", light_sampling_name(report.light_sampling)},
+      {"roulette", report.transport.roulette_depth == kNoRoulette
+                       ? Json(nullptr)
+                       : Json(report.transport.roulette_depth)},
       {"colour", colour_name(report.colour)},
       {"tonemap", tone_map_name(report.film.tone_map)},
       {"exposure", report.film.exposure_stops},

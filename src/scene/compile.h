@@ -90,9 +90,10 @@ inline constexpr uint64_t kCopiedTriangles = 1 << 18;
 
 /// --light-choice: how a surface chooses the light that it asks for.
 enum class LightChoosing {
-  kAuto,   ///< by the tree from kTreeLights on
-  kPower,  ///< by power alone
-  kTree,   ///< by power, distance and direction, if two lights have a place
+  kAuto,     ///< by the tree from kTreeLights on
+  kPower,    ///< by power alone
+  kTree,     ///< by power, distance and direction, if two lights have a place
+  kUniform,  ///< each alike: what the others are proved against
 };
 /// Lights with a place from which on a tree over them pays (docs/decisions.md).
 inline constexpr uint32_t kTreeLights = 4;

@@ -56,14 +56,16 @@ void prepare_light_choice(std::vector<LightRow<Value>>& rows, LightChoosing choo
   const auto placed = uint32_t(far - rows.begin()), all = uint32_t(rows.size());
   scene.first_far_light = placed;
   const uint32_t least = choosing == LightChoosing::kTree ? 2 : kTreeLights;
-  const bool by_tree =
-      choosing != LightChoosing::kPower && placed >= least && make_tree(rows, placed, pool, scene);
+  const bool may = choosing == LightChoosing::kAuto || choosing == LightChoosing::kTree;
+  const bool by_tree = may && placed >= least && make_tree(rows, placed, pool, scene);
 
   for (uint32_t i = 0; i < placed && by_tree; ++i) rows[i].probability = 1;
   const uint32_t first = by_tree ? placed : 0;
   std::vector<double> power;
   for (uint32_t i = first; i < all; ++i)
-    power.push_back(light_power(rows[i], scene.colour, double(scene.radius)));
+    power.push_back(choosing == LightChoosing::kUniform
+                        ? 1
+                        : light_power(rows[i], scene.colour, double(scene.radius)));
   const AliasTable table = make_alias_table(power);
   scene.light_choice.resize(all - first);
   for (uint32_t i = first; i < all; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// How lights are chosen: an alias table by power, or the light tree.
+// How lights are chosen: an alias table by power, or of equal chances, or the light tree.
 
 #include <vector>
 

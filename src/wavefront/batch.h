@@ -48,6 +48,8 @@ struct Batch {
         chunk_paths(kChunkRows),
         randoms(kChunkRows),
         lights(plan.lights ? kChunkRows : 0),
+        certain(plan.light_sampling == LightSampling::kLights && plan.environment ? batch_rows : 0),
+        no_density(plan.light_sampling == LightSampling::kBsdf ? batch_rows : 0),
         textures(scene, *plan.kernels, kChunkRows),
         child_u(plan.split_levels ? kChunkRows : 0),
         splits(plan.split_levels),
@@ -102,6 +104,8 @@ struct Batch {
   Table<PathState> chunk_paths;
   Table<Randoms> randoms;
   Table<LightSample> lights;
+  AlignedArray<uint32_t> certain;  ///< rows that may count the environment, where not all may
+  AlignedArray<float> no_density;  ///< zeros in place of PathState::pdf, where all light met counts
   TextureStage textures;
   AlignedArray<float> child_u;    ///< of a chunk: decides between the children of its material
   std::vector<SplitRows> splits;  ///< per level of materials made of others
@@ -114,8 +118,8 @@ struct Batch {
                    occluded.bytes() + sums.bytes() + slot_sample.bytes() + free_slots.bytes() +
                    finished.bytes() + camera.bytes() + film_u.bytes() + film_v.bytes() +
                    lens_u.bytes() + lens_v.bytes() + surfaces.bytes() + tangents.bytes() +
-                   chunk_paths.bytes() + randoms.bytes() + lights.bytes() + textures.bytes() +
-                   scratch_memory.bytes();
+                   chunk_paths.bytes() + randoms.bytes() + lights.bytes() + certain.bytes() +
+                   no_density.bytes() + textures.bytes() + scratch_memory.bytes();
     for (int i = 0; i < 2; ++i) total += rays[i].bytes() + paths[i].bytes();
     total += child_u.bytes() + veils.bytes();
     for (const SplitRows& level : splits) total += level.bytes();

@@ -131,6 +131,21 @@ std::string texture_steps(const TextureProgram& program) {
 
 namespace {
 
+/// Whether some light is one that no ray can meet.
+bool has_unmet_lights(const Scene& scene) {
+  for (uint32_t i = 0; i < scene.lights.size(); ++i) switch (LightKind(scene.lights.row(i).kind)) {
+      case LightKind::kPoint:
+      case LightKind::kDistant:
+      case LightKind::kSpot:
+      case LightKind::kPointMap:
+      case LightKind::kProjection:
+        return true;
+      default:
+        break;
+    }
+  return false;
+}
+
 /// The plan of a material, with those of what it is made of in plan.children.
 ShadePlan plan_material(const Scene& scene, const MaterialForm& form, bool roulette, uint32_t level,
                         Plan& plan) {
@@ -178,6 +193,8 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
   if (options.integrator == Integrator::kDirect)
     plan.transport.least_depth_after_scatter = options.max_depth;
   plan.transport.seed = options.seed;
+  plan.transport.roulette_depth = options.roulette_depth;
+  plan.light_sampling = options.light_sampling;
   plan.camera = scene.camera_kind;
   const uint32_t set = std::clamp(options.sample_set, 1u, kLargestSet);
   plan.set_columns = uint32_t(std::sqrt(double(set)));
@@ -198,7 +215,8 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
   plan.instance_mask = !scene.instances.all_occlude;
 
   // Light is sampled at vertices below max_depth only.
-  plan.lights = scene.lights.size() > 0 && options.max_depth > 0;
+  plan.lights = scene.lights.size() > 0 && options.max_depth > 0 &&
+                (plan.light_sampling != LightSampling::kBsdf || has_unmet_lights(scene));
   plan.light_kernel = scene.light_kinds >> kPlainLightKinds ? kAnyLights
                       : std::popcount(scene.light_kinds) == 1
                           ? uint32_t(std::countr_zero(scene.light_kinds))
@@ -229,6 +247,17 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
 }
 
 namespace {
+
+std::string_view ways_text(const Plan& plan) {
+  switch (plan.light_sampling) {
+    case LightSampling::kLights:
+      return ", by light samples alone (--light-sampling lights)";
+    case LightSampling::kBsdf:
+      return ", samples only of those that no ray meets (--light-sampling bsdf)";
+    default:
+      return "";
+  }
+}
 
 std::string describe_material(const Plan& plan, const ShadePlan& material) {
   const std::string_view name = material_traits(material.material).name;
@@ -323,7 +352,8 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
                        plan.veil_shape_tree
                            ? fmt::format(" ({} nodes)", scene.veil_shape_tree.view.node_count)
                            : std::string()));
-    line(Stage::kAccumulate, fmt::format("add_unoccluded: {} lights", scene.lights.size()));
+    line(Stage::kAccumulate,
+         fmt::format("add_unoccluded: {} lights{}", scene.lights.size(), ways_text(plan)));
   }
 
   text += "skipped\n";
@@ -356,7 +386,9 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
           "no material varies over its surface");
   if (!plan.lights)
     skipped(false, "sample_lights, intersect_shadow, add_unoccluded",
-            scene.lights.size() ? "paths end at their first vertex" : "no light in the scene");
+            !scene.lights.size()        ? "no light in the scene"
+            : !plan.transport.max_depth ? "paths end at their first vertex"
+                                        : "light is found by chance (--light-sampling bsdf)");
   else
     skipped(any_bin([](const ShadePlan& b) { return b.draw_choice; }) || scene.lights.size() > 1,
             "draw choice", "there is one light");
@@ -364,7 +396,9 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   skipped(any_bin([](const ShadePlan& b) { return b.draw_lobe; }), "draw lobe",
           "no material chooses between lobes");
   skipped(any_bin([](const ShadePlan& b) { return b.draw_roulette; }), "draw roulette",
-          "no path gets as far as Russian roulette");
+          plan.transport.roulette_depth == kNoRoulette
+              ? "paths go on to their last vertex (--roulette off)"
+              : "no path gets as far as Russian roulette");
   for (uint32_t kind = 0; kind < kMaterialKinds; ++kind)
     skipped(any_bin([&](const ShadePlan& b) { return b.material == MaterialKind(kind); }),
             "shade " + std::string(material_traits(MaterialKind(kind)).name),

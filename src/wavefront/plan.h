@@ -13,6 +13,16 @@ namespace yat {
 
 enum class Integrator { kPath, kDirect };
 
+/// --light-sampling: the ways by which paths find light. All give the same picture on average, as
+/// far as each way alone finds all of the light.
+enum class LightSampling {
+  kBoth,    ///< light samples and light met by chance, weighted against each other
+  kLights,  ///< light samples; by chance only what the camera, mirrors and glass show
+  kBsdf,    ///< by chance; light samples only of lights that no ray can meet
+};
+/// PlanOptions::roulette_depth for paths that go on to their last vertex.
+inline constexpr uint32_t kNoRoulette = 0xffffffffu;
+
 /// What is done with surfaces of one material.
 struct ShadePlan {
   MaterialKind material = MaterialKind::kMatte;
@@ -41,6 +51,7 @@ struct Plan {
   const KernelTable* kernels = nullptr;
   SamplerKind sampler = SamplerKind::kSobol;
   TransportOptions transport;
+  LightSampling light_sampling = LightSampling::kBoth;
   uint32_t set_columns = 8, set_rows = 8;  ///< of the stratified samplers
   /// Key of all random numbers.
   DrawKey draw_key() const { return {transport.seed, set_columns, set_rows}; }
@@ -69,6 +80,9 @@ struct PlanOptions {
   SamplerKind sampler = SamplerKind::kSobol;
   uint32_t max_depth = 16;
   uint32_t seed = 0;
+  LightSampling light_sampling = LightSampling::kBoth;
+  /// First vertex at which Russian roulette may end a path, or kNoRoulette.
+  uint32_t roulette_depth = TransportOptions{}.roulette_depth;
   /// Samples of a pixel that stratified samplers spread together, at most kLargestSet. Rounded down
   /// to a grid's product where the sampler has a grid.
   uint32_t sample_set = 64;

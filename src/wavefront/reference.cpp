@@ -15,6 +15,18 @@ double power_heuristic(double own, double other) {
   return own * own / (own * own + other * other);
 }
 
+/// Weight of a light that a path met, which chose its direction with density `scattered`.
+double weight_of_met(LightSampling ways, double scattered, double sampled) {
+  if (scattered == 0 || ways == LightSampling::kBsdf) return 1;
+  return ways == LightSampling::kLights ? 0 : power_heuristic(scattered, sampled);
+}
+
+/// Weight of a light sample.
+double weight_of_sample(LightSampling ways, double sampled, double scattered) {
+  if (sampled == 0 || ways == LightSampling::kLights) return 1;
+  return ways == LightSampling::kBsdf ? 0 : power_heuristic(sampled, scattered);
+}
+
 bool black(const Vec& c) {
   return c.x == 0 && c.y == 0 && c.z == 0;
 }
@@ -45,8 +57,8 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
       if (options.hide_environment && vertex == 0) break;
       for (uint32_t i = scene.first_environment; i < scene.lights.size(); ++i) {
         const SeenEnvironment seen = see_environment(scene, i, scattered_at, ray.direction);
-        const double weight = scattered_pdf > 0 ? power_heuristic(scattered_pdf, seen.pdf) : 1;
-        radiance += throughput * seen.radiance * weight;
+        radiance += throughput * seen.radiance *
+                    weight_of_met(plan.light_sampling, scattered_pdf, seen.pdf);
       }
       break;
     }
@@ -61,10 +73,9 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
     const MaterialKind material = chosen.kind;
 
     if (const double cos = glm::dot(hit->ng, wo); hit->light != kNone && cos > 0) {
-      double weight = 1;
-      if (scattered_pdf > 0)
-        weight = power_heuristic(scattered_pdf, light_pdf(scene, scattered_at, *hit, cos));
-      radiance += throughput * light_radiance(scene, hit->light) * weight;
+      const double sampled = scattered_pdf > 0 ? light_pdf(scene, scattered_at, *hit, cos) : 0;
+      radiance += throughput * light_radiance(scene, hit->light) *
+                  weight_of_met(plan.light_sampling, scattered_pdf, sampled);
     }
     if (material_traits(material).see_through) {
       ray.origin = hit->position +
@@ -103,7 +114,7 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
           sample_light(scene, receiver, random(Dimension::kChoice).first, double(u), double(v));
       const Vec wi = axes.to_local(light.wi);
       if (!black(light.arriving) && glm::dot(ng, light.wi) * wi.z > 0) {
-        const double weight = light.pdf > 0 ? power_heuristic(light.pdf, bsdf.pdf(wi)) : 1;
+        const double weight = weight_of_sample(plan.light_sampling, light.pdf, bsdf.pdf(wi));
         const Vec add =
             throughput * bsdf.evaluate(wi) * coat(wi) * std::fabs(wi.z) * light.arriving * weight;
         if (!black(add) && !occluded(scene, leave(light.wi), light.to))

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "wavefront/light_sampling.h"
+
 namespace yat {
 
 Worker::Worker(const Scene& scene, const Plan& plan, uint32_t batch_rows, bool trace, Film& film,
@@ -167,8 +169,17 @@ void Worker::environment() {
   if (!n) return;
   clock_.enter(Stage::kEnvironment, n);
   const auto add = plan_.light_tree ? kernels_.add_tree_environment : kernels_.add_environment;
-  add(view_, batch_.order.data(), batch_.rays[current_].view(), batch_.hits.view(),
-      batch_.paths[current_].view(), plan_.transport, batch_.sums.columns(), counted_.drops, n);
+  PathState<ConstColumn> paths = batch_.paths[current_].view();
+  const uint32_t* rows = batch_.order.data();
+  uint32_t taken = n;
+  if (plan_.light_sampling == LightSampling::kLights) {
+    taken = keep_without_density(paths.pdf, rows, n, batch_.certain.data());
+    rows = batch_.certain.data();
+  } else if (plan_.light_sampling == LightSampling::kBsdf) {
+    paths.pdf = batch_.no_density.data();
+  }
+  add(view_, rows, batch_.rays[current_].view(), batch_.hits.view(), paths, plan_.transport,
+      batch_.sums.columns(), counted_.drops, taken);
   count(Stage::kEnvironment, n);
 }
 
@@ -222,7 +233,12 @@ void Worker::shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end) {
   if (bin.emission) {
     clock_.enter(Stage::kEmission, n);
     const auto add = plan_.light_tree ? kernels_.add_tree_emission : kernels_.add_emission;
-    add(view_, rows.surfaces, rows.paths, batch_.sums.columns(), counted_.drops, n);
+    PathState<ConstColumn> paths = rows.paths;
+    if (plan_.light_sampling == LightSampling::kLights)
+      forget_lights(paths.pdf, batch_.surfaces.columns().light, n);
+    else if (plan_.light_sampling == LightSampling::kBsdf)
+      paths.pdf = batch_.no_density.data();
+    add(view_, rows.surfaces, paths, batch_.sums.columns(), counted_.drops, n);
     count(Stage::kEmission, n);
   }
 
@@ -291,6 +307,10 @@ void Worker::shade_rows(const ShadePlan& plan, const ChunkRows& rows) {
     else
       kernels_.sample_lights[plan_.light_kernel](view_, rows.surfaces, drawn,
                                                  batch_.lights.columns(), n);
+    if (plan_.light_sampling == LightSampling::kLights)
+      count_in_full(batch_.lights.columns(), n);
+    else if (plan_.light_sampling == LightSampling::kBsdf)
+      empty_met_lights(batch_.lights.columns(), n);
     lights = batch_.lights.view();
     count(Stage::kLightSample, n);
   }
