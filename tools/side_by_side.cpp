@@ -8,6 +8,9 @@
 // of another size is scaled to yat's. Exit code 1 if a picture cannot be read or written.
 //
 // side_by_side --size PICTURE: prints its size as WIDTHxHEIGHT.
+//
+// side_by_side --from-film IN.exr OUT.exr: a linear picture by LuxRender, in its film's colours
+// (SMPTE-C, white .314275 .329411), as yat writes its own: linear Rec.709. For `yat diff`.
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
@@ -74,6 +77,43 @@ std::array<double, 3> mean_of(const ImageBuf& image) {
   return mean;
 }
 
+/// Film colours to linear Rec.709 by way of XYZ, white not adapted; as yat has it the other way
+/// round when it writes a LuxRender film (rows give red, green, blue of the film).
+constexpr std::array<std::array<double, 3>, 3> kToFilm{
+    {{1.04796, -.05449, -.00981}, {-.01971, 1.04063, -.01680}, {.00164, .00445, 1.00152}}};
+
+std::array<float, 3> from_film(const std::array<float, 3>& film) {
+  // Cramer's rule: the columns of the matrix, each in turn replaced by the colour.
+  const auto det = [](const std::array<std::array<double, 3>, 3>& m) {
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+           m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  };
+  std::array<float, 3> rgb{};
+  for (size_t c = 0; c < 3; ++c) {
+    auto replaced = kToFilm;
+    for (size_t row = 0; row < 3; ++row) replaced[row][c] = double(film[row]);
+    rgb[c] = float(det(replaced) / det(kToFilm));
+  }
+  return rgb;
+}
+
+bool convert_from_film(const char* in, const char* out) {
+  ImageBuf film;
+  if (!read_rgb(in, film)) return false;
+  ImageBuf picture(
+      OIIO::ImageSpec(film.spec().width, film.spec().height, 3, OIIO::TypeDesc::FLOAT));
+  std::array<float, 3> p{};
+  for (int y = 0; y < film.spec().height; ++y)
+    for (int x = 0; x < film.spec().width; ++x) {
+      film.getpixel(x, y, p.data(), 3);
+      picture.setpixel(x, y, from_film(p).data(), 3);
+    }
+  if (picture.write(out)) return true;
+  fmt::print(stderr, "{}: error: cannot be written ({})\n", out, picture.geterror());
+  return false;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -83,10 +123,12 @@ int main(int argc, char** argv) {
     fmt::print("{}x{}\n", picture.spec().width, picture.spec().height);
     return 0;
   }
+  if (argc == 4 && std::string_view(argv[1]) == "--from-film")
+    return convert_from_film(argv[2], argv[3]) ? 0 : 1;
   if (argc != 4) {
-    fmt::print(
-        stderr,
-        "usage: side_by_side OUT.png YAT.png REFERENCE.png, or side_by_side --size PICTURE\n");
+    fmt::print(stderr,
+               "usage: side_by_side OUT.png YAT.png REFERENCE.png, side_by_side --size PICTURE, or "
+               "side_by_side --from-film IN.exr OUT.exr\n");
     return 2;
   }
   ImageBuf ours, theirs;
