@@ -68,16 +68,8 @@ void compile(const Arguments& arguments, const KernelTable& kernels, ThreadPool&
   loaded.scene.film.exposure_stops = arguments.exposure_stops;
   focus_camera(loaded.scene);
 
-  PlanOptions plan;
   loaded.integrator = loaded.scene.direct_only ? Integrator::kDirect : Integrator::kPath;
-  plan.integrator = loaded.integrator;
-  plan.sampler = arguments.sampler.value_or(loaded.scene.sampler);
-  plan.sample_set = sample_set(arguments, loaded.scene.film);
-  plan.max_depth = arguments.max_depth.value_or(uint32_t(std::max(0, loaded.scene.max_depth)));
-  plan.seed = arguments.seed;
-  plan.light_sampling = arguments.light_sampling;
-  plan.roulette_depth = arguments.roulette_depth;
-  loaded.plan = make_plan(loaded.scene, kernels, plan);
+  loaded.plan = plan_of(arguments, kernels, loaded.scene);
 }
 
 }  // namespace
@@ -89,6 +81,18 @@ Diagnostics::Sink sink_for(Console& console, Verbosity verbosity) {
                         verbosity == Verbosity::kVerbose;
     if (wanted) console.line(line);
   };
+}
+
+Plan plan_of(const Arguments& arguments, const KernelTable& kernels, const Scene& scene) {
+  PlanOptions plan;
+  plan.integrator = scene.direct_only ? Integrator::kDirect : Integrator::kPath;
+  plan.sampler = arguments.sampler.value_or(scene.sampler);
+  plan.sample_set = sample_set(arguments, scene.film);
+  plan.max_depth = arguments.max_depth.value_or(uint32_t(std::max(0, scene.max_depth)));
+  plan.seed = arguments.seed;
+  plan.light_sampling = arguments.light_sampling;
+  plan.roulette_depth = arguments.roulette_depth;
+  return make_plan(scene, kernels, plan);
 }
 
 ColourMode colour_mode(const Arguments& arguments) {

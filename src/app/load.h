@@ -43,6 +43,10 @@ struct Loaded {
 void load(const Arguments& arguments, const KernelTable& kernels, ThreadPool& pool,
           Console& console, Diagnostics& diagnostics, Loaded& loaded);
 
+/// The plan of a scene that was compiled with these arguments, or with others that differ in
+/// sampler, depth, samples and seed alone.
+Plan plan_of(const Arguments& arguments, const KernelTable& kernels, const Scene& scene);
+
 /// How colours multiply: as asked for, else as suits the dialect.
 ColourMode colour_mode(const Arguments& arguments);
 

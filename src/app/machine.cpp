@@ -23,12 +23,13 @@ Machine this_machine() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);) {
     const size_t colon = line.find(": ");
-    if (line.starts_with("model name") && colon != std::string::npos) {
-      machine.cpu = line.substr(colon + 2);
-      break;
-    }
+    if (colon == std::string::npos) continue;
+    if (line.starts_with("model name") && machine.cpu.empty()) machine.cpu = line.substr(colon + 2);
+    if (line.starts_with("cpu MHz") && machine.clock_mhz == 0)
+      machine.clock_mhz = std::strtod(line.c_str() + colon + 2, nullptr);
   }
   if (utsname name{}; machine.cpu.empty() && uname(&name) == 0) machine.cpu = name.machine;
+  std::ifstream("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor") >> machine.governor;
   machine.processors = uint32_t(std::max(0l, sysconf(_SC_NPROCESSORS_ONLN)));
   machine.memory_bytes = uint64_t(std::max(0l, sysconf(_SC_PHYS_PAGES))) *
                          uint64_t(std::max(0l, sysconf(_SC_PAGE_SIZE)));

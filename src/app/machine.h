@@ -10,6 +10,8 @@ struct Machine {
   std::string cpu;            ///< model name, or the architecture where there is none
   uint32_t processors = 0;    ///< that the system has
   uint64_t memory_bytes = 0;  ///< of main memory
+  double clock_mhz = 0;       ///< of the first processor now; 0: not known
+  std::string governor;       ///< of its clock (Linux cpufreq), empty where there is none
 };
 
 Machine this_machine();

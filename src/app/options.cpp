@@ -5,11 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "app/build_info.h"
+#include "app/converge_options.h"
+#include "app/option_values.h"
 #include "base/error.h"
 #include "kernels/strata.h"
 
@@ -195,36 +196,6 @@ std::string_view name_of(T wanted, const std::array<std::pair<std::string_view, 
   for (const auto& [name, value] : names)
     if (value == wanted) return name;
   return "unknown";
-}
-
-/// The whole of `text` as a number in [least, most].
-template <class T>
-T number(std::string_view option, std::string_view text, std::string_view part, T least, T most) {
-  T value{};
-  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-  if (part.empty() || error != std::errc() || end != part.data() + part.size())
-    throw UsageError(
-        fmt::format("{} {}: \"{}\" is not a number that fits here", option, text, part));
-  if (!(value >= least && value <= most))
-    throw UsageError(
-        fmt::format("{} {}: {} is not within {} to {}", option, text, value, least, most));
-  return value;
-}
-
-/// Exactly N numbers between separators.
-template <class T, size_t N>
-std::array<T, N> numbers(std::string_view option, std::string_view text, char separator, T least,
-                         T most, std::string_view form) {
-  std::array<T, N> values{};
-  std::string_view rest = text;
-  for (size_t i = 0; i < N; ++i) {
-    const size_t end = rest.find(separator);
-    if ((end == std::string_view::npos) != (i + 1 == N))
-      throw UsageError(fmt::format("{} {}: write it as {}", option, text, form));
-    values[i] = number<T>(option, text, rest.substr(0, end), least, most);
-    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
-  }
-  return values;
 }
 
 /// Text of every option as given; read into Arguments once all are known.
@@ -425,27 +396,18 @@ std::string shown_flags(const OptionText& option) {
   return flags;
 }
 
-std::string help_of(std::string_view usage, std::string_view text,
-                    std::span<const OptionText> options) {
-  std::string help = fmt::format("Usage: {}\n{}\n\nOptions:\n", usage, text);
-  for (const OptionText& option : options) {
-    help += fmt::format("  {}\n      {}\n", shown_flags(option), option.text);
-    if (!option.fallback.empty()) help += fmt::format("      default: {}\n", option.fallback);
-  }
-  return help;
-}
-
 std::string general_help() {
   return "Usage: yat render SCENE [OPTION...]   render a LuxRender scene (.lxs) to pictures\n"
          "       yat info SCENE [OPTION...]     say what the scene holds and how it would be "
          "rendered\n"
          "       yat diff PICTURE REFERENCE     compare two pictures\n"
+         "       yat converge SCENE -o FOLDER   measure error against time, of one or more ways\n"
          "       yat -i SCENE [-o FILE] ...     the same by YART's rules and flags (yat -i -h "
          "lists "
          "them)\n"
          "       yat --version\n"
          "\n"
-         "`yat render --help`, `yat info --help` and `yat diff --help` list the options with their "
+         "`yat render --help` and the same of the others list the options with their "
          "defaults.\n"
          "Exit codes: 0 done, 1 bad scene or input, 2 bad usage, 3 out of memory, disk or the "
          "like,\n"
@@ -455,16 +417,16 @@ std::string general_help() {
 
 std::string help_for(const CLI::App* render, const CLI::App* info, const CLI::App* diff) {
   if (render->parsed())
-    return help_of("yat render SCENE [OPTION...]", "Renders a LuxRender scene (.lxs) to pictures.",
-                   kRenderOptions);
+    return option_help("yat render SCENE [OPTION...]",
+                       "Renders a LuxRender scene (.lxs) to pictures.", kRenderOptions);
   if (info->parsed())
-    return help_of(
+    return option_help(
         "yat info SCENE [OPTION...]",
         "Says what the scene holds, which stages and kernels would run, what the tree is "
         "like, and memory.",
         kInfoOptions);
   if (diff->parsed())
-    return help_of(
+    return option_help(
         "yat diff PICTURE REFERENCE [OPTION...]",
         "Compares two pictures of one size: MSE, relMSE, MAPE, PSNR, FLIP, outliers. Exit "
         "code 4 and FAIL, 5 and WARN, or 0 and PASS by the thresholds that are given.",
@@ -502,6 +464,16 @@ std::span<const OptionText> info_option_texts() {
 
 std::span<const OptionText> diff_option_texts() {
   return kDiffOptions;
+}
+
+std::string option_help(std::string_view usage, std::string_view text,
+                        std::span<const OptionText> options) {
+  std::string help = fmt::format("Usage: {}\n{}\n\nOptions:\n", usage, text);
+  for (const OptionText& option : options) {
+    help += fmt::format("  {}\n      {}\n", shown_flags(option), option.text);
+    if (!option.fallback.empty()) help += fmt::format("      default: {}\n", option.fallback);
+  }
+  return help;
 }
 
 std::string option_table(std::span<const OptionText> options) {
@@ -550,6 +522,15 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     }
     line.command = Command::kYart;
     line.yart = parse_yart_command_line(argc, argv);
+    return line;
+  }
+  if (argc >= 2 && std::string_view(argv[1]) == "converge") {
+    line.converge.assign(argv + 2, argv + argc);
+    const auto asks_help = [](std::string_view a) { return a == "-h" || a == "--help"; };
+    if (std::any_of(line.converge.begin(), line.converge.end(), asks_help))
+      line.text = converge_help();
+    else
+      line.command = Command::kConverge;
     return line;
   }
   Given given;

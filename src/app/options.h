@@ -31,6 +31,10 @@ std::span<const OptionText> render_option_texts();
 std::span<const OptionText> info_option_texts();
 std::span<const OptionText> diff_option_texts();
 
+/// What --help prints for a command.
+std::string option_help(std::string_view usage, std::string_view text,
+                        std::span<const OptionText> options);
+
 /// The options as rows of a Markdown table, one line each: what docs and README must hold.
 std::string option_table(std::span<const OptionText> options);
 
@@ -75,14 +79,15 @@ struct Arguments {
   Verbosity verbosity = Verbosity::kNormal;
 };
 
-enum class Command { kRender, kInfo, kDiff, kYart, kHelp };
+enum class Command { kRender, kInfo, kDiff, kConverge, kYart, kHelp };
 
 struct CommandLine {
   Command command = Command::kHelp;
   Arguments arguments;
   YartArguments yart;
   DiffArguments diff;
-  std::string text;  ///< kHelp: what --help or --version prints
+  std::vector<std::string> converge;  ///< words for parse_converge_arguments()
+  std::string text;                   ///< kHelp: what --help or --version prints
 };
 
 /// Reads the command line. Throws UsageError with a message that names the option; for YART's

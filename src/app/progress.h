@@ -37,9 +37,12 @@ std::string progress_json(const ProgressState& state, std::string_view event);
 class Progress {
  public:
   Progress(Console& console, ProgressKind kind);
-  void show(const ProgressState& state);
+  virtual ~Progress() = default;
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  virtual void show(const ProgressState& state);
   /// The last state: takes the bar away, writes the last line.
-  void finish(const ProgressState& state);
+  virtual void finish(const ProgressState& state);
 
  private:
   Console& console_;

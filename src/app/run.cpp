@@ -9,6 +9,7 @@
 
 #include "app/build_info.h"
 #include "app/console.h"
+#include "app/converge.h"
 #include "app/diff.h"
 #include "app/info.h"
 #include "app/interrupt.h"
@@ -215,6 +216,8 @@ ExitCode run(int argc, const char* const* argv) {
         return render_command(line.arguments, console);
       case Command::kDiff:
         return diff_command(line.diff);
+      case Command::kConverge:
+        return converge(parse_converge_arguments(line.converge), console);
       case Command::kYart:
         return yart_command(line.yart, console);
     }

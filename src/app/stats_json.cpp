@@ -7,14 +7,15 @@
 #include "app/build_info.h"
 #include "app/machine.h"
 #include "app/report.h"
+#include "app/stats_parts.h"
 
 namespace yat {
 
 namespace {
-
 using Json = nlohmann::ordered_json;
+}
 
-Json lanes_of(const RenderStats& stats) {
+Json lanes_json(const RenderStats& stats) {
   Json lanes = Json::object();
   for (uint32_t i = 0; i < kStages; ++i) {
     const StageCount& stage = stats.stages[i];
@@ -25,7 +26,7 @@ Json lanes_of(const RenderStats& stats) {
   return lanes;
 }
 
-Json stages_of(const RenderStats& stats) {
+Json stages_json(const RenderStats& stats) {
   Json stages = Json::object();
   for (uint32_t i = 0; i < kStages; ++i) {
     const StageCount& stage = stats.stages[i];
@@ -35,6 +36,26 @@ Json stages_of(const RenderStats& stats) {
   }
   return stages;
 }
+
+Json build_json(std::string_view isa, uint32_t lanes) {
+  return {{"compiler", kBuildInfo.compiler},
+          {"type", kBuildInfo.build_type},
+          {"flags", kBuildInfo.flags},
+          {"isa", isa},
+          {"lanes", lanes}};
+}
+
+Json machine_json(uint32_t threads) {
+  const Machine machine = this_machine();
+  return {{"cpu", machine.cpu},
+          {"cores", machine.processors},
+          {"threads", threads},
+          {"clock_mhz", machine.clock_mhz > 0 ? Json(machine.clock_mhz) : Json()},
+          {"governor", machine.governor.empty() ? Json() : Json(machine.governor)},
+          {"memory", machine.memory_bytes}};
+}
+
+namespace {
 
 Json dropped_of(const RenderReport& report) {
   Json dropped = Json::object();
@@ -47,22 +68,14 @@ Json dropped_of(const RenderReport& report) {
 }  // namespace
 
 std::string stats_json(const RenderReport& report) {
-  const Machine machine = this_machine();
   const RenderStats& stats = report.totals.stats;
   Json record;
   record["scene"] = report.scene;
   record["scene_hash"] = fmt::format("{:016x}", report.scene_hash);
   record["version"] = kBuildInfo.version;
   record["commit"] = kBuildInfo.commit;
-  record["build"] = {{"compiler", kBuildInfo.compiler},
-                     {"type", kBuildInfo.build_type},
-                     {"flags", kBuildInfo.flags},
-                     {"isa", report.isa},
-                     {"lanes", report.lanes}};
-  record["machine"] = {{"cpu", machine.cpu},
-                       {"cores", machine.processors},
-                       {"threads", report.threads},
-                       {"memory", machine.memory_bytes}};
+  record["build"] = build_json(report.isa, report.lanes);
+  record["machine"] = machine_json(report.threads);
   record["seed"] = report.transport.seed;
   record["spp"] = report.samples_per_pixel();
   record["resolution"] = {report.film.width, report.film.height};
@@ -98,8 +111,8 @@ std::string stats_json(const RenderReport& report) {
   record["timed_out"] = report.totals.timed_out;
   record["rays"] = {
       {"camera", stats.camera_rays}, {"bounce", stats.bounce_rays}, {"shadow", stats.shadow_rays}};
-  record["lanes"] = lanes_of(stats);
-  record["stages"] = stages_of(stats);
+  record["lanes"] = lanes_json(stats);
+  record["stages"] = stages_json(stats);
   record["dropped"] = dropped_of(report);
   // A file name need not be UTF-8; JSON must be.
   return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

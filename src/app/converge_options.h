@@ -1,0 +1,41 @@
+#pragma once
+// The command line of `yat converge`: its own options, and those of `yat render` for all variants
+// or for one.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/options.h"
+
+namespace yat {
+
+/// One way to render the scene.
+struct ConvergeVariant {
+  std::string name;
+  std::string options;    ///< all that hold for it, in one order
+  std::string scene_key;  ///< variants with the same key render the same compiled scene
+  Arguments arguments;
+};
+
+struct ConvergeArguments {
+  std::string scene, folder;
+  std::vector<ConvergeVariant> variants;  ///< at least one
+  ConvergeVariant shared;                 ///< what holds for all; makes the reference
+  std::string reference;                  ///< a picture; empty: one is made
+  uint32_t runs = 16;
+  std::vector<uint32_t> ladder;  ///< ascending
+  double time_per_run = 0;       ///< [s]; 0: no limit
+  uint32_t seed = 0;
+  bool restart = false;
+  ProgressKind progress = ProgressKind::kAuto;
+  Verbosity verbosity = Verbosity::kNormal;
+};
+
+std::span<const OptionText> converge_option_texts();
+std::string converge_help();
+
+/// words: those after `yat converge`. Throws UsageError.
+ConvergeArguments parse_converge_arguments(const std::vector<std::string>& words);
+
+}  // namespace yat
