@@ -116,6 +116,13 @@ TEST(Options, MistakesNameTheOptionAndTheWayOut) {
             "--samples-range 4,4: no sample between them; A must be less than B");
   EXPECT_EQ(usage_error({"render", "a.lxs", "--samples-range", "0,4", "--spp", "4"}),
             "--samples-range says which samples to take: leave out --spp and --time");
+  EXPECT_EQ(usage_error({"render", "a.lxs", "--noise-target", "1e-2", "--samples-range", "0,4"}),
+            "--noise-target finds out which samples it takes, so they are not those of a "
+            "--samples-range: leave one of them out");
+  EXPECT_EQ(usage_error({"render", "a.lxs", "--noise-target", "0"}),
+            "--noise-target 0: no picture is without error; give a relMSE above 0");
+  EXPECT_EQ(usage_error({"render", "a.lxs", "--noise-target", "1e-2", "--spp", "1"}),
+            "--noise-target needs 2 samples per pixel to see the error: give --spp 2 or more");
   EXPECT_EQ(usage_error({"render", "a.lxs", "-v", "-q"}), "-v and -q exclude each other");
   EXPECT_EQ(usage_error({"render", "a.lxs", "--light-sampling", "both"}),
             "--light-sampling both: unknown; choose from mis, lights, bsdf");
@@ -185,7 +192,23 @@ TEST(Passes, LimitsComeFromTheCommandLineThenTheScene) {
   arguments = {};
   arguments.samples_range = SampleRange{4, 6};
   EXPECT_EQ(pass_limits(arguments, film).samples.first, 4u);
+  EXPECT_EQ(pass_limits(arguments, film).noise_target, 0);
   EXPECT_EQ(pass_limits(arguments, film).time_limit, 0);
+}
+
+TEST(Passes, ANoiseTargetOutranksTheSceneAndKeepsTheBounds) {
+  FilmSettings film;
+  film.halt_spp = 10;
+  film.halt_time = 5;
+  Arguments arguments;
+  arguments.noise_target = .01;
+  EXPECT_EQ(pass_limits(arguments, film).noise_target, .01);
+  EXPECT_TRUE(pass_limits(arguments, film).unlimited);
+  EXPECT_EQ(pass_limits(arguments, film).time_limit, 0);
+  arguments.samples_per_pixel = 12;
+  arguments.time_limit = 3;
+  EXPECT_EQ(pass_limits(arguments, film).samples.end, 12u);
+  EXPECT_EQ(pass_limits(arguments, film).time_limit, 3);
 }
 
 TEST(Passes, SizesArePowersOfTwoThatCoverTheRangeOnce) {

@@ -36,7 +36,7 @@ uint32_t sample_set(const Arguments& arguments, const FilmSettings& film) {
   constexpr uint32_t kUnknown = 64;
   if (arguments.sample_set) return *arguments.sample_set;
   const PassLimits limits = pass_limits(arguments, film);
-  const bool known = !limits.unlimited && !arguments.samples_range;
+  const bool known = !limits.unlimited && !arguments.samples_range && limits.noise_target == 0;
   return known ? std::min(limits.samples.end, kLargestSet) : kUnknown;
 }
 
@@ -117,11 +117,11 @@ void print(std::string_view text) {
         fmt::format("error: standard output: cannot write: {}", std::strerror(errno)));
 }
 
-void require_film_memory(const FilmSettings& film, FeatureSet features) {
+void require_film_memory(const FilmSettings& film, FeatureSet features, uint32_t parts) {
   // Sums, the mean picture, its tone mapped copy and its bytes in a file.
   const uint64_t pixels = uint64_t(film.crop_width()) * film.crop_height();
   const uint64_t pictures = 1 + uint64_t(std::popcount(features));
-  const uint64_t needed = pixels * (pictures * (sizeof(FilmPixel) + 12 + 12) + 12);
+  const uint64_t needed = pixels * (pictures * (parts * sizeof(FilmPixel) + 12 + 12) + 12);
   const uint64_t there = available_memory_bytes();
   if (there && needed > there)
     throw ResourceError(fmt::format(

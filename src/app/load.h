@@ -57,8 +57,9 @@ Diagnostics::Sink sink_for(Console& console, Verbosity verbosity);
 /// ResourceError.
 void print(std::string_view text);
 
-/// Throws ResourceError if the film would not fit. Asks before the memory is touched: a system that
-/// lends more than it has would end the program in the middle of the work.
-void require_film_memory(const FilmSettings& film, FeatureSet features);
+/// Throws ResourceError if the film, kept in so many parts, would not fit. Asks before the memory
+/// is touched: a system that lends more than it has would end the program in the middle of the
+/// work.
+void require_film_memory(const FilmSettings& film, FeatureSet features, uint32_t parts = 1);
 
 }  // namespace yat

@@ -30,6 +30,8 @@ constexpr OptionText kRenderOptions[] = {
      "render only the samples A to B-1 of every pixel, to repeat or to split a render"},
     {"--time", "SECONDS", "the scene's halttime, or no limit",
      "stop rendering after this time; what comes first of this and --spp counts"},
+    {"--noise-target", "X", "none",
+     "stop when relMSE is below X, by the picture's own estimate; --spp and --time stay bounds"},
     {"--threads", "N", "one per processor", "worker threads; the picture does not depend on them"},
     {"--integrator", "path|direct", "the scene's",
      "path: all light; direct: direct light, mirrors and glass"},
@@ -200,9 +202,9 @@ std::string_view name_of(T wanted, const std::array<std::pair<std::string_view, 
 
 /// Text of every option as given; read into Arguments once all are known.
 struct Given {
-  std::string spp, samples_range, time, threads, integrator, max_depth, sampler, sample_set, compat,
-      colour, seed, resolution, crop, instances, light_choice, light_sampling, roulette,
-      texture_cache, compensation, tree, tone_map, exposure, aov, progress;
+  std::string spp, samples_range, time, noise_target, threads, integrator, max_depth, sampler,
+      sample_set, compat, colour, seed, resolution, crop, instances, light_choice, light_sampling,
+      roulette, texture_cache, compensation, tree, tone_map, exposure, aov, progress;
   bool verbose = false, quiet = false;
 };
 
@@ -259,6 +261,7 @@ void add_render(Adder& add, Arguments& arguments, Given& given) {
   add("--sample-set", given.sample_set);
   add("--samples-range", given.samples_range);
   add("--time", given.time);
+  add("--noise-target", given.noise_target);
   add("--colour", given.colour);
   add("--energy-compensation", given.compensation);
   add("--seed", given.seed);
@@ -322,11 +325,24 @@ void read_given(const Given& given, Arguments& to) {
                       given.samples_range));
     if (to.samples_per_pixel || !given.time.empty())
       throw UsageError("--samples-range says which samples to take: leave out --spp and --time");
+    if (!given.noise_target.empty())
+      throw UsageError(
+          "--noise-target finds out which samples it takes, so they are not those of a "
+          "--samples-range: leave one of them out");
     to.samples_range = SampleRange{first, end};
   }
   if (!given.time.empty()) {
     to.time_limit = number<double>("--time", given.time, given.time, 0, 1e9);
     if (*to.time_limit == 0) throw UsageError("--time 0: no time to render; give seconds above 0");
+  }
+  if (!given.noise_target.empty()) {
+    to.noise_target =
+        number<double>("--noise-target", given.noise_target, given.noise_target, 0, 1e9);
+    if (*to.noise_target == 0)
+      throw UsageError("--noise-target 0: no picture is without error; give a relMSE above 0");
+    if (to.samples_per_pixel == 1u)
+      throw UsageError(
+          "--noise-target needs 2 samples per pixel to see the error: give --spp 2 or more");
   }
   if (!given.threads.empty())
     to.threads = number<uint32_t>("--threads", given.threads, given.threads, 1, 4096);

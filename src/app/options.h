@@ -52,8 +52,9 @@ struct Arguments {
   std::vector<std::string> outputs;
   std::optional<uint32_t> samples_per_pixel;
   std::optional<SampleRange> samples_range;
-  std::optional<double> time_limit;  ///< of rendering [s]
-  uint32_t threads = 0;              ///< 0: one per processor
+  std::optional<double> time_limit;    ///< of rendering [s]
+  std::optional<double> noise_target;  ///< relMSE at which to stop
+  uint32_t threads = 0;                ///< 0: one per processor
   std::optional<Integrator> integrator;
   std::optional<uint32_t> max_depth;
   std::optional<SamplerKind> sampler;

@@ -2,24 +2,23 @@
 // A render as passes over ranges of samples, so that it can stop between them: at a time limit, or
 // with a picture that holds nearly the same number of samples everywhere.
 
-#include <atomic>
 #include <cstdint>
-#include <functional>
 
 #include "app/options.h"
-#include "app/progress.h"
-#include "wavefront/render.h"
+#include "app/pass_runner.h"
 
 namespace yat {
 
 /// Which samples of every pixel to take and when to stop.
 struct PassLimits {
   SampleRange samples{0, 64};
-  bool unlimited = false;  ///< `samples.end` is only the largest index that there is
-  double time_limit = 0;   ///< [s]; 0: none
+  bool unlimited = false;   ///< `samples.end` is only the largest index that there is
+  double time_limit = 0;    ///< [s]; 0: none
+  double noise_target = 0;  ///< relMSE at which to stop; 0: none
 };
 
-/// Limits from the command line, else from the scene, else 64 samples.
+/// Limits from the command line, else from the scene, else 64 samples. With a noise target
+/// the numbers of samples and seconds are upper bounds.
 PassLimits pass_limits(const Arguments& arguments, const FilmSettings& film);
 
 /// Number of samples of the pass that begins at `first`: powers of two, at most as many as were
@@ -30,21 +29,9 @@ PassLimits pass_limits(const Arguments& arguments, const FilmSettings& film);
 /// seconds  rendering time so far.
 uint32_t next_pass_size(const PassLimits& limits, uint32_t first, uint64_t pixels, double seconds);
 
-/// What all passes did together.
-struct RenderTotals {
-  RenderStats stats;
-  DropLog drops;
-  std::vector<TraceSpan> trace;
-  uint64_t scratch_bytes = 0;
-  double seconds = 0;
-  uint32_t passes = 0;
-  bool timed_out = false;
-};
-
 /// Renders into `film` (and `features`, which may be null) until the samples are done, the time is
-/// up or `stop` is set (which the time limit does, too).
-RenderTotals render_passes(const Scene& scene, const Plan& plan, const PassLimits& limits,
-                           bool trace, ThreadPool& pool, Film& film, FeatureFilm* features,
-                           Progress& progress, std::atomic<bool>& stop);
+/// up or it is stopped. context.time_limit is that of `limits`.
+RenderTotals render_passes(const PassContext& context, const PassLimits& limits, Film& film,
+                           FeatureFilm* features);
 
 }  // namespace yat

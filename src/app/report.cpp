@@ -93,6 +93,17 @@ std::string drop_lines(const RenderReport& report) {
   return text;
 }
 
+/// "relMSE 0.0098 (95 %: 0.0095 to 0.0100), epsilon 2.1e-05: target 0.01 reached".
+std::string noise_line(const RenderTotals& totals) {
+  if (totals.noise_target == 0) return {};
+  if (!totals.noise)
+    return fmt::format("  error   not known: both halves of the picture need a sample\n");
+  return fmt::format(
+      "  error   relMSE {:.3g} (95 %: {:.3g} to {:.3g}), epsilon {:.3g}: target {:g} {}\n",
+      totals.noise->rel_mse, totals.noise->low(), totals.noise->high(), totals.noise->epsilon,
+      totals.noise_target, totals.noise_reached() ? "reached" : "not reached");
+}
+
 }  // namespace
 
 std::string summary_text(const RenderReport& report, Verbosity verbosity) {
@@ -102,6 +113,7 @@ std::string summary_text(const RenderReport& report, Verbosity verbosity) {
   std::string text = first_line(report);
   text += fmt::format("  time    read {:.3f} s, build {:.3f} s, render {:.3f} s, write {:.3f} s\n",
                       time.read, time.build, time.render, time.write);
+  text += noise_line(report.totals);
   text += fmt::format("  paths   {} ({:.2f} Mpaths/s)\n", short_number(double(stats.paths)),
                       per_second(stats.paths, time.render) * 1e-6);
   text +=

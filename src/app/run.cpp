@@ -14,6 +14,7 @@
 #include "app/info.h"
 #include "app/interrupt.h"
 #include "app/load.h"
+#include "app/noise_passes.h"
 #include "app/passes.h"
 #include "app/report.h"
 #include "app/yart_run.h"
@@ -77,8 +78,7 @@ RenderReport report_of(const Arguments& arguments, const Loaded& loaded, const T
   return report;
 }
 
-void write_pictures(const Arguments& arguments, const RenderReport& report, const Film& film,
-                    const FeatureFilm* features) {
+void write_pictures(const Arguments& arguments, const RenderReport& report, const FilmParts& film) {
   PictureMetadata metadata;
   metadata.scene = report.scene;
   metadata.scene_hash = report.scene_hash;
@@ -87,12 +87,13 @@ void write_pictures(const Arguments& arguments, const RenderReport& report, cons
   metadata.render_seconds = report.time.render;
   metadata.isa = report.isa;
   metadata.version = kBuildInfo.version;
+  if (report.totals.noise) {
+    const NoiseEstimate& noise = *report.totals.noise;
+    metadata.noise = PictureMetadata::Noise{noise.rel_mse, noise.low(), noise.high(), noise.epsilon,
+                                            report.totals.noise_target};
+  }
   const std::vector<float> rgb = film.resolve();
-  std::vector<PictureLayer> layers;
-  for (uint32_t f = 0; features && f < kFeatures; ++f)
-    if (features->has(Feature(f)))
-      layers.push_back(
-          {std::string(feature_info(Feature(f)).channels), features->resolve(Feature(f), film)});
+  const std::vector<PictureLayer> layers = film.resolve_features();
   for (const std::string& output : report.outputs) {
     // Only files that the scene asks for are written as it says; -o has its own rules.
     const PictureFile* as_asked = nullptr;
@@ -128,11 +129,11 @@ ExitCode render_command(const Arguments& arguments, Console& console) {
   for (const std::string& file : {arguments.stats_file, arguments.trace_file})
     if (!file.empty()) require_writable(file);
 
-  require_film_memory(report.film, arguments.features);
-  Film film(report.film.crop_width(), report.film.crop_height());
-  std::optional<FeatureFilm> features;
-  if (arguments.features) features.emplace(film.width(), film.height(), arguments.features);
-  report.film_bytes = film.bytes() + (features ? features->bytes() : 0);
+  const bool to_noise = arguments.noise_target.has_value();
+  require_film_memory(report.film, arguments.features, to_noise ? 2 : 1);
+  FilmParts film(report.film.crop_width(), report.film.crop_height(), arguments.features,
+                 to_noise ? 2 : 1);
+  report.film_bytes = film.bytes();
   {
     InterruptGuard guard;
     // Errors and the end of an interrupted render are all that -q lets through.
@@ -141,9 +142,17 @@ ExitCode render_command(const Arguments& arguments, Console& console) {
             ? ProgressKind::kSilent
             : arguments.progress;
     Progress progress(console, kind);
-    report.totals = render_passes(loaded.scene, loaded.plan, pass_limits(arguments, report.film),
-                                  !arguments.trace_file.empty(), pool, film,
-                                  features ? &*features : nullptr, progress, guard.stop());
+    const PassLimits limits = pass_limits(arguments, report.film);
+    const PassContext context{loaded.scene,
+                              loaded.plan,
+                              pool,
+                              progress,
+                              guard.stop(),
+                              limits.time_limit,
+                              !arguments.trace_file.empty()};
+    report.totals = to_noise
+                        ? render_to_noise(context, limits, film)
+                        : render_passes(context, limits, film[0].film, film[0].features_or_null());
     report.interrupted = guard.interrupted();
     report.time.render = report.totals.seconds;
     report.samples = film.total_samples();
@@ -162,7 +171,7 @@ ExitCode render_command(const Arguments& arguments, Console& console) {
     }
     // Still guarded: a second Ctrl-C ends a slow write.
     Stopwatch watch;
-    write_pictures(arguments, report, film, features ? &*features : nullptr);
+    write_pictures(arguments, report, film);
     report.time.write = watch.lap();
   }
   tell_end(console, report, diagnostics, arguments.verbosity);

@@ -109,6 +109,13 @@ std::string stats_json(const RenderReport& report) {
   record["passes"] = report.totals.passes;
   record["interrupted"] = report.interrupted;
   record["timed_out"] = report.totals.timed_out;
+  if (const auto& noise = report.totals.noise)
+    record["noise"] = {{"target", report.totals.noise_target},
+                       {"reached", report.totals.noise_reached()},
+                       {"relmse", noise->rel_mse},
+                       {"relmse_interval", {noise->low(), noise->high()}},
+                       {"epsilon", noise->epsilon},
+                       {"mse", noise->mse}};
   record["rays"] = {
       {"camera", stats.camera_rays}, {"bounce", stats.bounce_rays}, {"shadow", stats.shadow_rays}};
   record["lanes"] = lanes_json(stats);

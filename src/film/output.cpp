@@ -69,6 +69,13 @@ void describe(OIIO::ImageSpec& spec, const PictureMetadata& m) {
   spec.attribute("yat:render_seconds", float(m.render_seconds));
   spec.attribute("yat:isa", m.isa);
   spec.attribute("yat:version", m.version);
+  if (m.noise) {
+    spec.attribute("yat:relmse", float(m.noise->rel_mse));
+    spec.attribute("yat:relmse_low", float(m.noise->low));
+    spec.attribute("yat:relmse_high", float(m.noise->high));
+    spec.attribute("yat:relmse_epsilon", float(m.noise->epsilon));
+    spec.attribute("yat:noise_target", float(m.noise->target));
+  }
   // The one text that JPEG keeps.
   spec.attribute(
       "ImageDescription",

@@ -3,6 +3,7 @@
 // written beside its name and renamed, so that a crash leaves no half file.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,13 @@ struct PictureMetadata {
   double render_seconds = 0;
   std::string isa, version;
   std::string stamp;  ///< written into .png and .jpg (stamp.h); empty: nothing
+  /// The error that the picture was found to have, where it was to have one (film/halves.h).
+  struct Noise {
+    double rel_mse, low, high;  ///< with the ends of the 95 % interval
+    double epsilon;             ///< of relMSE
+    double target;
+  };
+  std::optional<Noise> noise = {};
 };
 
 /// Whether the extension is one that write_picture knows (.exr .png .jpg .jpeg .tga).

@@ -1,0 +1,2 @@
+yat_test(halves LABELS fast statistics LIBS yat_film SOURCES test_halves.cpp)
+yat_test(noise LABELS render statistics LIBS yat_app SOURCES test_noise.cpp)
