@@ -209,13 +209,14 @@ std::string memory_of(const Scene& scene) {
     line("objects, each once", scene.instances.object_bytes());
     line("their instances", scene.instances.instance_bytes());
   }
-  line("lights", scene.lights.bytes());
+  line("lights", scene.lights.bytes() + scene.emission.bytes());
   line("light choice", scene.light_choice.bytes() + scene.light_tree.nodes.bytes() +
                            scene.light_tree.trail.bytes());
   for (uint32_t kind = 0; kind < kMaterialKinds; ++kind)
     line(fmt::format("material {}", kMaterialNames[kind]), scene.parameters[kind].bytes());
   size_t programs = 0;
-  for (const TextureProgram& program : scene.programs) programs += program.bytes();
+  for (const auto* list : {&scene.programs, &scene.emission_programs})
+    for (const TextureProgram& program : *list) programs += program.bytes();
   line("texture programs", programs);
   line("texels", scene.texels.bytes());
   line("pixel filter", scene.filter_quantile_x.bytes() + scene.filter_quantile_y.bytes() +

@@ -10,6 +10,7 @@ void fill_surface(KernelTable& table);            ///< hits -> bins, surfaces; e
 void fill_light(KernelTable& table);              ///< light sampling, the kinds most scenes have
 void fill_environment(KernelTable& table);        ///< light sampling of all kinds; rays that miss
 void fill_light_tree(KernelTable& table);         ///< what scenes of many lights do instead
+void fill_varying_emission(KernelTable& table);   ///< lights that do not shine evenly
 void fill_diffuse_materials(KernelTable& table);  ///< shading and BSDF batches, by family
 void fill_coated_materials(KernelTable& table);
 void fill_layered_materials(KernelTable& table);

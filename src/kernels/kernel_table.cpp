@@ -24,6 +24,7 @@ const KernelTable* kernel_table() {
     fill_metal_materials(t);
     fill_glass_materials(t);
     fill_light_tree(t);
+    fill_varying_emission(t);
     fill_split(t);
     fill_textures(t);
     fill_accumulate(t);

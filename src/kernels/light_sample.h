@@ -117,10 +117,12 @@ YAT_INLINE LitPoint<A> lit_point(const LightTreeView& tree, const Surface<ConstC
 }
 
 /// kKernel: a kind of light, kPlainLights or kAnyLights. all_around matters to the tree alone.
-template <class A, uint32_t kKernel, bool kByTree>
+/// kKeepRows: the row of each light goes to `light`, which is not looked at otherwise.
+template <class A, uint32_t kKernel, bool kByTree, bool kKeepRows = false>
 YAT_INLINE void sample_chosen_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
                                      const Randoms<ConstColumn>& randoms, bool all_around,
-                                     const LightSample<Column>& samples, uint32_t n) noexcept {
+                                     const LightSample<Column>& samples, uint32_t n,
+                                     [[maybe_unused]] uint32_t* light = nullptr) noexcept {
   const LightView& lights = scene.lights;
   const bool one_light = !kByTree && lights.rows.count == 1;
   const Float<A> zero(0.f), one(1.f);
@@ -139,8 +141,12 @@ YAT_INLINE void sample_chosen_lights(const SceneView& scene, const Surface<Const
       row = gather<A>(lights.rows, chosen.row);
     } else if (!one_light) {
       const Float<A> choice = only<A>(active, load<A>(randoms.light_choice, i));
-      row = gather<A>(lights.rows, choose_light<A>(lights.choice, choice));
+      chosen.row = choose_light<A>(lights.choice, choice);
+      row = gather<A>(lights.rows, chosen.row);
+    } else if constexpr (kKeepRows) {
+      chosen.row = UInt<A>(0u);
     }
+    if constexpr (kKeepRows) store<A>(chosen.row, light, i);
     const Float<A> far =
         Float<A>(kFarSizes) * xsimd::max(Float<A>(scene.radius), largest_magnitude(receiver));
     Float<A> u = load<A>(randoms.light_u, i), v = load<A>(randoms.light_v, i);

@@ -280,6 +280,29 @@ struct KernelTable {
   void (*sample_tree_lights[kLightKernels])(const SceneView&, const Surface<ConstColumn>&,
                                             const Randoms<ConstColumn>&, bool all_around,
                                             const LightSample<Column>&, uint32_t n) noexcept;
+
+  // -- emission that varies over a light (kernels/varying_emission.h); only scenes with such lights
+  /// As sample_lights[kAnyLights], [1] as sample_tree_lights[kAnyLights]; and the row of each
+  /// light.
+  void (*sample_varying_lights[2])(const SceneView&, const Surface<ConstColumn>&,
+                                   const Randoms<ConstColumn>&, bool all_around,
+                                   const LightSample<Column>&, uint32_t* light,
+                                   uint32_t n) noexcept;
+  /// Sampled points order[0..n) of lights whose emission a program makes, dense: pos, ns, u, v,
+  /// prim and parameter (of the program) are written.
+  void (*make_light_points)(const SceneView&, const uint32_t* light, const uint32_t* order,
+                            const LightSample<ConstColumn>&, const Surface<Column>&,
+                            uint32_t n) noexcept;
+  /// Multiplies factor[0..2] by what the maps of the lights send out in the directions sign *
+  /// direction[0..2] (unit); rows whose light has none are left alone, and may have the light
+  /// kNone.
+  void (*apply_emission_maps)(const SceneView&, const uint32_t* light,
+                              const float* const* direction, float sign, float* const* factor,
+                              uint32_t n) noexcept;
+  /// out[c] = a[c] b[c] for three columns each.
+  void (*multiply_colours)(const float* const* a, const float* const* b, float* const* out,
+                           uint32_t n) noexcept;
+
   /// Direct light (if input.lights is given) and the next ray.
   void (*shade[kMaterialKinds])(const ShadeInput&, const TransportOptions&, ShadeOutput&, DropLog&,
                                 uint32_t n) noexcept;

@@ -9,6 +9,7 @@ target_sources(
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_coated.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_composite.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_diffuse.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/compile_emission.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_environment.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_film.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/compile_filter.cpp

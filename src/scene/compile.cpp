@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "scene/compile_emission.h"
 #include "scene/compile_objects.h"
 #include "scene/light_maps.h"
 
@@ -147,7 +148,8 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   keys.number(scene, diagnostics);
   std::vector<uint8_t> occludes;
   rows.finish(keys, scene, occludes);
-  objects.finish(keys, options.ids, scene, rows.lights());
+  objects.finish(keys, options.ids, scene, rows.lights(), rows.emission());
+  shapes.emission().finish(scene);
   shapes.materials().finish(scene);
   std::vector<LightRow<Value>> lights = std::move(rows.lights());
   LightTables light_tables;
@@ -155,6 +157,7 @@ Scene compile_scene(const Description& description, const CompileOptions& option
     compile_light(*light, description, scene.colour, scene.center, light_tables, lights,
                   diagnostics);
   scene.light_samples = shapes.light_samples() + other_lights.size();
+  rows.emission().finish(uint32_t(lights.size()), shapes.emission(), light_tables, scene);
   finish_lights(std::move(lights), light_tables, options.light_choice, pool, scene);
   if (scene.prim_bin.empty() && scene.instances.empty() &&
       scene.first_environment == scene.lights.size())
@@ -198,6 +201,7 @@ SceneView Scene::view() const {
   view.veils.shapes.tree = veil_shape_tree.view;
   view.instances = instances.view();
   view.lights.rows = lights.view();
+  view.lights.emission = emission.view();
   view.lights.choice = light_choice.view();
   if (light_tree.nodes.size() > 0)
     view.lights.tree = {light_tree.nodes.view(), light_tree.trail.data(), light_tree_scale,
@@ -227,13 +231,14 @@ size_t Scene::bytes() const {
   size_t sum = triangles.bytes() + triangle_vertices.bytes() + spheres.bytes() + planes.bytes() +
                shapes.bytes() + shape_tree.bytes() + veil_shape_tree.bytes() + prim_bin.bytes() +
                tree.bytes() + veils.bytes() + instances.object_bytes() +
-               instances.instance_bytes() + lights.bytes() + light_choice.bytes() +
-               light_tree.nodes.bytes() + light_tree.trail.bytes() + light_maps.bytes() +
-               skies.bytes() + light_texels.bytes() + light_cells.bytes() +
+               instances.instance_bytes() + lights.bytes() + emission.bytes() +
+               light_choice.bytes() + light_tree.nodes.bytes() + light_tree.trail.bytes() +
+               light_maps.bytes() + skies.bytes() + light_texels.bytes() + light_cells.bytes() +
                filter_quantile_x.bytes() + filter_quantile_y.bytes() + filter_marginal.bytes() +
                filter_conditional.bytes() + filter_sign.bytes();
   for (const auto& table : parameters) sum += table.bytes();
-  for (const TextureProgram& program : programs) sum += program.bytes();
+  for (const auto* list : {&programs, &emission_programs})
+    for (const TextureProgram& program : *list) sum += program.bytes();
   sum += texels.bytes();
   return sum;
 }

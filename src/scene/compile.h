@@ -57,6 +57,9 @@ struct Bin {
   uint32_t split = kNone;   ///< row of Scene::splits, if the material is made of others
   Passing passing = Passing::kSolid;
   uint32_t program = kNone;  ///< row of Scene::programs: what makes the material's parameters
+  uint32_t emission_program = kNone;  ///< row of Scene::emission_programs: what emission varies by
+  bool emission_by_direction = false;
+  bool emission_varies() const { return emission_program != kNone || emission_by_direction; }
 };
 inline constexpr uint32_t kMaxBins = 1024;  ///< in practice below 40
 
@@ -153,6 +156,8 @@ struct Scene {
   Tree veil_shape_tree;  ///< over spheres and shapes that are, if many
   Instances instances;
   RowTable<LightRow> lights;
+  RowTable<EmissionRow> emission;  ///< per light, where that of any varies
+  std::vector<TextureProgram> emission_programs;
   RowTable<LightChoice> light_choice;
   LightTree light_tree;
   float light_tree_scale = 1, far_light = 0;  ///< LightTreeView::scale, far

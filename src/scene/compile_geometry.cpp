@@ -54,17 +54,19 @@ void add_to_bounds(const PlacedShape& placed, Bounds& bounds) {
   }
 }
 
-BinKey BinKey::of(GeometryKind geometry, const MaterialRef& material, bool emissive,
+BinKey BinKey::of(GeometryKind geometry, const MaterialRef& material, const Shining& shining,
                   Placing placing) {
-  return {.lasting = emissive || material.passing != Passing::kSolid,
+  return {.lasting = shining.emissive || material.passing != Passing::kSolid,
           .placing = placing,
           .geometry = geometry,
           .material = material.kind,
           .split = material.split,
           .passing = material.passing,
           .program = material.program,
-          .emissive = emissive,
-          .tangents = material.tangents};
+          .emissive = shining.emissive,
+          .tangents = material.tangents,
+          .emission_program = shining.program,
+          .emission_by_direction = shining.by_direction};
 }
 
 void BinKeys::number(Scene& scene, Diagnostics& diagnostics) {
@@ -83,7 +85,9 @@ void BinKeys::number(Scene& scene, Diagnostics& diagnostics) {
                           .instanced = key.placing == Placing::kByInstance,
                           .split = key.split,
                           .passing = key.passing,
-                          .program = key.program});
+                          .program = key.program,
+                          .emission_program = key.emission_program,
+                          .emission_by_direction = key.emission_by_direction});
     if (!key.lasting) scene.first_lasting_bin = bin + 1;
   }
 }
@@ -105,6 +109,7 @@ void GeometryRows::add_mesh(const PlacedShape& placed, const Mesh& mesh) {
   const auto first = uint32_t(triangles_.size());
   const MeshRows added =
       add_mesh_rows(placed, mesh, center_, placed.material.uv, triangles_, vertices_, diagnostics_);
+  const size_t first_vertices = vertices_.size() - (added.flat ? 0 : triangles_.size() - first);
   degenerate_ += added.left_out;
   if (triangles_.size() == first) return;
   for (size_t t = first; t < triangles_.size(); ++t) {
@@ -116,11 +121,14 @@ void GeometryRows::add_mesh(const PlacedShape& placed, const Mesh& mesh) {
     if (!(light.extra > 0)) continue;
     row.light = uint32_t(lights_.size());
     lights_.push_back(light);
+    if (placed.look.varies())
+      emission_.add_triangle(row.light, placed.look, uint32_t(t), light,
+                             added.flat ? nullptr : &vertices_[first_vertices + t - first], false);
   }
   triangle_runs_.push_back(
       {first,
        BinKey::of(added.flat ? GeometryKind::kTriangleFlat : GeometryKind::kTriangleVertex,
-                  placed.material, placed.emissive(), Placing::kOnce),
+                  placed.material, placed.shining(), Placing::kOnce),
        placed.ids()});
 }
 
@@ -155,6 +163,7 @@ void GeometryRows::add_sphere(const PlacedShape& placed) {
     light.radiance_g = float(placed.radiance.y);
     light.radiance_b = float(placed.radiance.z);
     lights_.push_back(light);
+    if (placed.look.varies()) shape_looks_[row.light] = placed.look;
   }
   spheres_.push_back(row);
   TopBox box;
@@ -168,7 +177,7 @@ void GeometryRows::add_sphere(const PlacedShape& placed) {
   sphere_boxes_.push_back(box);
   sphere_ids_.push_back(placed.ids());
   sphere_keys_.push_back(
-      BinKey::of(GeometryKind::kSphere, placed.material, placed.emissive(), Placing::kOnce));
+      BinKey::of(GeometryKind::kSphere, placed.material, placed.shining(), Placing::kOnce));
 }
 
 void GeometryRows::add_plane(const PlacedShape& placed) {
@@ -193,7 +202,7 @@ void GeometryRows::add_plane(const PlacedShape& placed) {
   planes_.push_back(row);
   plane_ids_.push_back(placed.ids());
   plane_keys_.push_back(
-      BinKey::of(GeometryKind::kPlane, placed.material, placed.emissive(), Placing::kOnce));
+      BinKey::of(GeometryKind::kPlane, placed.material, placed.shining(), Placing::kOnce));
 }
 
 void GeometryRows::add_shape(const PlacedShape& placed) {
@@ -215,12 +224,13 @@ void GeometryRows::add_shape(const PlacedShape& placed) {
     light.radiance_g = float(placed.radiance.y);
     light.radiance_b = float(placed.radiance.z);
     lights_.push_back(light);
+    if (placed.look.varies()) shape_looks_[row.light] = placed.look;
   }
   analytic_.push_back(row);
   analytic_ids_.push_back(placed.ids());
   analytic_boxes_.push_back(traced_bounds(shape, placed.placement, center_));
   analytic_keys_.push_back(BinKey::of(GeometryKind(uint32_t(GeometryKind::kQuadric) + row.kind),
-                                      placed.material, placed.emissive(), Placing::kOnce));
+                                      placed.material, placed.shining(), Placing::kOnce));
 }
 
 void GeometryRows::add_keys(BinKeys& keys) const {
@@ -261,6 +271,9 @@ void GeometryRows::finish(const BinKeys& keys, Scene& scene, std::vector<uint8_t
     for (uint32_t r = 0; r < rows.size(); ++r, ++prim) {
       table.set(r, rows[order[r]]);
       if (ids_) scene.prim_ids[prim] = ids[order[r]];
+      if constexpr (requires { rows[order[r]].light; })
+        if (const auto look = shape_looks_.find(rows[order[r]].light); look != shape_looks_.end())
+          emission_.add(look->first, look->second, prim);
       ++scene.bins[scene.prim_bin[prim] = keys.bin(row_keys[order[r]])].primitives;
     }
   };

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "scene/compile_emission.h"
 #include "scene/light_choosing.h"
 #include "scene/light_compiler.h"
 
@@ -24,7 +25,10 @@ bool is_black(const LightRow<Value>& row) {
 }  // namespace
 
 LightColor light_color(Parameters& p, const Description& description, const ColourModel& colour) {
-  const glm::dvec3 given = color_parameter(p, "L", glm::dvec3(1.), description);
+  return light_color(p, color_parameter(p, "L", glm::dvec3(1.), description), colour);
+}
+
+LightColor light_color(Parameters& p, const glm::dvec3& given, const ColourModel& colour) {
   const auto gain = double(p.number("gain", 1));
   const auto clean = [](glm::dvec3 color) {
     for (int i = 0; i < 3; ++i)
@@ -104,7 +108,7 @@ void LightContext::add(const LightRow<Value>& row) {
 
 std::optional<AreaLight> compile_area_light(const AreaLightEntry& entry,
                                             const Description& description,
-                                            const ColourModel& colour, Diagnostics& diagnostics) {
+                                            EmissionCompiler& emission, Diagnostics& diagnostics) {
   const Plugin& plugin = entry.plugin;
   if (plugin.type != "area") {
     diagnostics.error(
@@ -116,7 +120,7 @@ std::optional<AreaLight> compile_area_light(const AreaLightEntry& entry,
   Parameters p(plugin, "area light", diagnostics);
   AreaLight light;
   light.loc = plugin.loc;
-  const LightColor color = light_color(p, description, colour);
+  const LightColor color = emission.color(p, light.look);
   light.color = color.bands;
   light.luminance = color.y;
   if (description.dialect == Dialect::kYart) {
@@ -127,8 +131,8 @@ std::optional<AreaLight> compile_area_light(const AreaLightEntry& entry,
     light.efficacy = double(p.number("efficacy", 17));
   }
   light.samples = light_samples(p);
-  p.unsupported({"mapname", "iesname"}, "the light shines evenly (Lambertian)");
-  p.accept({"importance", "flipz"});
+  light.look.distribution = emission.distribution(p);
+  p.accept({"importance"});
   p.report_unused();
   return light;
 }

@@ -75,7 +75,10 @@ MeshRows add_mesh_rows(const PlacedShape& placed, const Mesh& mesh, const glm::d
   const bool mirrored = placed.reverse_orientation != placed.placement.mirrored;
   uint64_t no_area = 0, not_finite = 0, bad_normals = 0;
   // Texture coordinates are for textures, and say where dp/du points.
-  const bool keep_uv = (uv != UvUse::kUnread || placed.material.tangents) && !mesh.uvs.empty();
+  const UvUse emission_uv = placed.emissive() ? placed.look.uv : UvUse::kUnread;
+  const bool keep_uv =
+      (uv != UvUse::kUnread || emission_uv != UvUse::kUnread || placed.material.tangents) &&
+      !mesh.uvs.empty();
   bool flat = !keep_uv;
   // By halves more at least: many small meshes must not copy the table each time.
   const size_t wanted = triangles.size() + mesh.triangles();
@@ -152,6 +155,10 @@ MeshRows add_mesh_rows(const PlacedShape& placed, const Mesh& mesh, const glm::d
     diagnostics.warning(placed.loc,
                         "the material's texture is mapped by uv, which the mesh has not: it has "
                         "one colour");
+  if (emission_uv == UvUse::kNeeded && mesh.uvs.empty())
+    diagnostics.warning(placed.loc,
+                        "the light's texture is mapped by uv, which the mesh has not: it has one "
+                        "colour");
   if (no_area || not_finite) {
     std::string what;
     if (no_area) what = counted(no_area, "triangle has", "triangles have") + " no area";

@@ -104,8 +104,8 @@ void ObjectCompiler::build(const TreeOptions& options, ThreadPool& pool, Scene& 
       object.emissive = object.emissive || mesh.emissive();
       object.runs.push_back(
           {first, uint32_t(triangles.size()),
-           added.flat ? GeometryKind::kTriangleFlat : GeometryKind::kTriangleVertex,
-           mesh.emissive(), m});
+           added.flat ? GeometryKind::kTriangleFlat : GeometryKind::kTriangleVertex, mesh.shining(),
+           m});
     }
     out.objects[o].name = description_.objects[shapes.row].name;
     out.objects[o].first_triangle = object.first_triangle;
@@ -231,7 +231,7 @@ void ObjectCompiler::add_to_bounds(Bounds& bounds) const {
 }
 
 BinKey ObjectCompiler::key(const Run& run, const MaterialRef& material) const {
-  return BinKey::of(run.geometry, material, run.emissive, Placing::kByInstance);
+  return BinKey::of(run.geometry, material, run.shining, Placing::kByInstance);
 }
 
 void ObjectCompiler::add_keys(BinKeys& keys) const {
@@ -258,15 +258,17 @@ uint32_t ObjectCompiler::add_shapes(const SharedShapes::Instance& instance, cons
 void ObjectCompiler::add_lights(const SharedShapes::Instance& instance,
                                 const InstanceRow<Value>& row, const Map& map,
                                 InstanceShapeRow<Value>* shapes, const Scene& scene,
-                                std::vector<LightRow<Value>>& lights) const {
+                                std::vector<LightRow<Value>>& lights,
+                                EmissionRows& emission) const {
   const Object& object = objects_[instance.object];
   const bool mirrored = glm::determinant(map.to_scene) < 0;
   const glm::dmat3 normal_map = glm::transpose(map.to_object);
   for (size_t r = 0; r < object.runs.size(); ++r) {
     const Run& run = object.runs[r];
-    if (!run.emissive) continue;
+    if (!run.shining.emissive) continue;
     shapes[r].light = uint32_t(lights.size());
-    const glm::dvec3& radiance = shapes_.objects[instance.object].meshes[run.mesh].radiance;
+    const PlacedShape& mesh = shapes_.objects[instance.object].meshes[run.mesh];
+    const glm::dvec3& radiance = mesh.radiance;
     for (uint32_t t = run.first; t < run.end; ++t) {
       const TriangleRow<Value> p = scene.instances.triangles.row(t);
       const glm::dvec3 p0(p.p0_x, p.p0_y, p.p0_z);
@@ -294,13 +296,19 @@ void ObjectCompiler::add_lights(const SharedShapes::Instance& instance,
       light.further = above(32 * kUlp * scale *
                             (glm::dot(glm::abs(normal), inner) +
                              (outside.x + outside.y + outside.z) * double(row.extent)));
+      if (mesh.look.varies()) {
+        TriangleVertexRow<Value> vertices{};
+        if (run.geometry == GeometryKind::kTriangleVertex)
+          vertices = scene.instances.triangle_vertices.row(t);
+        emission.add_triangle(uint32_t(lights.size()), mesh.look, t, light, &vertices, mirrored);
+      }
       lights.push_back(light);
     }
   }
 }
 
 void ObjectCompiler::finish(const BinKeys& keys, bool ids, Scene& scene,
-                            std::vector<LightRow<Value>>& lights) {
+                            std::vector<LightRow<Value>>& lights, EmissionRows& emission) {
   Instances& out = scene.instances;
   std::vector<uint32_t> object_ids, material_ids;
   std::vector<InstanceRow<Value>> rows;
@@ -318,7 +326,7 @@ void ObjectCompiler::finish(const BinKeys& keys, bool ids, Scene& scene,
     row.first_triangle = object.first_triangle;
     if (object.emissive) {
       row.first_shape = add_shapes(instance, keys, shapes, material_ids);
-      add_lights(instance, row, map, &shapes[row.first_shape], scene, lights);
+      add_lights(instance, row, map, &shapes[row.first_shape], scene, lights, emission);
     } else {
       const auto [first, is_new] = known.try_emplace({instance.object, instance.materials}, 0u);
       if (is_new) first->second = add_shapes(instance, keys, shapes, material_ids);

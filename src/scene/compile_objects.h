@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/compile_emission.h"
 #include "scene/compile_materials.h"
 #include "scene/compile_parts.h"
 #include "scene/tree_top.h"
@@ -50,6 +51,7 @@ class ShapePlacer {
   /// Points into this object.
   const SharedShapes& shared() const { return shared_; }
   MaterialCompiler& materials() { return materials_; }
+  EmissionCompiler& emission() { return emission_; }
   uint32_t shapes_read() const { return shapes_read_; }
 
  private:
@@ -58,13 +60,14 @@ class ShapePlacer {
     bool read = false;
     std::optional<CompiledShape> shape;
     glm::dvec3 radiance{0.0};  ///< bands, of its area light, by the area before instancing
+    EmissionLook look = {};
     bool emissive() const { return radiance.x > 0 || radiance.y > 0 || radiance.z > 0; }
   };
   /// What a mesh is to rays: instances that differ in this cannot share a tree.
   enum class Presence : uint8_t { kAbsent, kSeeThrough, kVeil, kSolid };
 
   const ShapeInfo& info(uint32_t index);
-  glm::dvec3 radiance(const ShapeEntry& entry, const CompiledShape& shape);
+  void make_light(const ShapeEntry& entry, ShapeInfo& info);
   void place(uint32_t index, const Matrix& to_world, uint32_t material, uint32_t object_id,
              SourceLoc loc);
   /// Of what the instance places.
@@ -89,6 +92,7 @@ class ShapePlacer {
   bool keep_uv_;
   Diagnostics& diagnostics_;
   MaterialCompiler materials_;
+  EmissionCompiler emission_;
   std::vector<ShapeInfo> shapes_;  // never resized: PlacedShape points into it
   std::vector<std::optional<std::optional<AreaLight>>> area_lights_;  // outer: read yet?
   std::vector<std::vector<uint32_t>> members_;                        // shapes of each object
@@ -114,14 +118,15 @@ class ObjectCompiler {
   /// Rows of the instances, the lights that they are, and the top tree, once scene.center and the
   /// bins are known.
   /// ids: whether the instances get SurfaceIds.
-  void finish(const BinKeys& keys, bool ids, Scene& scene, std::vector<LightRow<Value>>& lights);
+  void finish(const BinKeys& keys, bool ids, Scene& scene, std::vector<LightRow<Value>>& lights,
+              EmissionRows& emission);
 
  private:
   /// One shape of an object: which of the object's triangles, and what kind.
   struct Run {
     uint32_t first, end;  ///< triangles of the object
     GeometryKind geometry;
-    bool emissive;
+    Shining shining;
     uint32_t mesh;  ///< number among the object's meshes
   };
   struct Object {
@@ -153,7 +158,7 @@ class ObjectCompiler {
   /// Appends the instance's lights and writes where they begin into `shapes`, its rows.
   void add_lights(const SharedShapes::Instance& instance, const InstanceRow<Value>& row,
                   const Map& map, InstanceShapeRow<Value>* shapes, const Scene& scene,
-                  std::vector<LightRow<Value>>& lights) const;
+                  std::vector<LightRow<Value>>& lights, EmissionRows& emission) const;
 
   const SharedShapes& shapes_;
   const Description& description_;

@@ -19,6 +19,9 @@
 
 namespace yat {
 
+struct LightTables;
+class EmissionCompiler;
+
 /// CIE XYZ -> linear Rec.709 (lxs section 9).
 inline glm::dvec3 xyz_to_rec709(const glm::dvec3& c) {
   return {3.24097 * c.x - 1.53738 * c.y - .49861 * c.z,
@@ -138,6 +141,21 @@ std::optional<Placement> make_placement(const Matrix& matrix, SourceLoc loc,
 /// World-space area of a mesh; triangles with non-finite vertices count nothing.
 double mesh_area(const Mesh& mesh, const Placement& placement);
 
+/// How what a shape emits varies: over it, and with the direction (compile_emission.h).
+struct EmissionLook {
+  uint32_t program = kNone;       ///< row of Scene::emission_programs
+  uint32_t parameter = 0;         ///< row of the program's constants
+  UvUse uv = UvUse::kUnread;      ///< what the program wants of the shape's texture coordinates
+  uint32_t distribution = kNone;  ///< of directions: EmissionCompiler's
+  bool varies() const { return program != kNone || distribution != kNone; }
+};
+/// Whether a shape emits, and how: what bins distinguish.
+struct Shining {
+  bool emissive = false;
+  uint32_t program = kNone;
+  bool by_direction = false;
+};
+
 /// One copy of a shape in the world.
 struct PlacedShape {
   const CompiledShape* shape = nullptr;
@@ -147,6 +165,10 @@ struct PlacedShape {
   MaterialRef material;
   uint32_t object_id = 0;    ///< SurfaceIds::object
   glm::dvec3 radiance{0.0};  ///< bands; > 0 in one of them: emissive
+  EmissionLook look = {};    ///< of it
+  Shining shining() const {
+    return emissive() ? Shining{true, look.program, look.distribution != kNone} : Shining{};
+  }
   SurfaceIds ids() const { return {object_id, material.id}; }
   bool emissive() const { return radiance.x > 0 || radiance.y > 0 || radiance.z > 0; }
 };
@@ -182,7 +204,9 @@ struct BinKey {
   uint32_t program = kNone;  ///< of textures
   bool emissive = false;
   bool tangents = false;
-  static BinKey of(GeometryKind geometry, const MaterialRef& material, bool emissive,
+  uint32_t emission_program = kNone;  ///< of textures
+  bool emission_by_direction = false;
+  static BinKey of(GeometryKind geometry, const MaterialRef& material, const Shining& shining,
                    Placing placing);
   auto operator<=>(const BinKey&) const = default;
 };
@@ -201,6 +225,31 @@ class BinKeys {
   std::map<BinKey, uint32_t> bin_of_key_;
 };
 
+/// Rows of LightView::emission under construction, of the lights that do not shine evenly; see
+/// compile_emission.cpp.
+class EmissionRows {
+ public:
+  /// prim: as in Hit. Shapes other than triangles have no distribution of directions.
+  void add(uint32_t light, const EmissionLook& look, uint32_t prim);
+  /// vertices: with the texture coordinates, or null; mirrored: the light's b and c are those of
+  /// the vertices 2 and 1.
+  void add_triangle(uint32_t light, const EmissionLook& look, uint32_t prim,
+                    const LightRow<Value>& triangle, const TriangleVertexRow<Value>* vertices,
+                    bool mirrored);
+  /// Writes scene.emission, a row per light, and the maps of directions into the tables.
+  void finish(uint32_t lights, const EmissionCompiler& emission, LightTables& tables,
+              Scene& scene) const;
+
+ private:
+  struct Entry {
+    uint32_t light;
+    EmissionRow<Value> row;
+    uint32_t distribution;
+    glm::dmat3 axes;  ///< of the map's own space in the scene, columns
+  };
+  std::vector<Entry> entries_;
+};
+
 /// Collects rows in scene space; see compile_geometry.cpp.
 class GeometryRows {
  public:
@@ -212,6 +261,7 @@ class GeometryRows {
   /// Writes tables and the tree's input into the scene. `occludes` stays empty if all do.
   void finish(const BinKeys& keys, Scene& scene, std::vector<uint8_t>& occludes);
   std::vector<LightRow<Value>>& lights() { return lights_; }
+  EmissionRows& emission() { return emission_; }
 
  private:
   void add_mesh(const PlacedShape& placed, const Mesh& mesh);
@@ -244,6 +294,8 @@ class GeometryRows {
   std::vector<SurfaceIds> sphere_ids_, plane_ids_, analytic_ids_;
   std::vector<TopBox> sphere_boxes_, analytic_boxes_;  ///< what rays meet lies within
   std::vector<LightRow<Value>> lights_;
+  EmissionRows emission_;
+  std::map<uint32_t, EmissionLook> shape_looks_;  ///< of lights that are no triangles
   uint32_t degenerate_ = 0;
 };
 
@@ -258,12 +310,13 @@ struct AreaLight {
   double luminance = 1;   ///< Y(L), gain left out
   double power = 100, efficacy = 17;
   uint32_t samples = 1;  ///< nsamples
+  EmissionLook look = {};
   SourceLoc loc;
 };
 /// Empty if the statement cannot be used (reported).
 std::optional<AreaLight> compile_area_light(const AreaLightEntry& entry,
                                             const Description& description,
-                                            const ColourModel& colour, Diagnostics& diagnostics);
+                                            EmissionCompiler& emission, Diagnostics& diagnostics);
 /// Radiance in bands by the power rule of lxs 6.2 for a shape of this area [m2].
 glm::dvec3 area_light_radiance(const AreaLight& light, double area, Diagnostics& diagnostics);
 
@@ -292,7 +345,6 @@ std::optional<SphereLamp> compile_sphere_lamp(const LightEntry& entry,
                                               const Description& description,
                                               const ColourModel& colour, Diagnostics& diagnostics);
 
-struct LightTables;
 /// Appends the rows of a LightSource, and what they need in tables.
 void compile_light(const LightEntry& entry, const Description& description,
                    const ColourModel& colour, const glm::dvec3& center, LightTables& tables,

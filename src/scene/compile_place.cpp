@@ -36,6 +36,7 @@ ShapePlacer::ShapePlacer(const Description& description, const ColourModel& colo
       keep_uv_(options.keep_uv),
       diagnostics_(diagnostics),
       materials_(description, colour, options, diagnostics),
+      emission_(description, colour, diagnostics, materials_.textures().images()),
       shapes_(description.shapes.size()),
       area_lights_(description.area_lights.size()),
       members_(description.objects.size()) {}
@@ -116,6 +117,7 @@ std::optional<uint32_t> ShapePlacer::share(uint32_t object, uint64_t instances,
     placed.material = materials_.compile(first.material != kNone ? first.material : entry.material,
                                          {entry.interior, entry.exterior});
     placed.radiance = shapes_[i].radiance;
+    placed.look = shapes_[i].look;
     // Shadow rays walk through the veils of the scene's own tables.
     if (placed.material.passing == Passing::kVeil) return {};
     shared.meshes.push_back(std::move(placed));
@@ -177,6 +179,7 @@ void ShapePlacer::place(uint32_t index, const Matrix& to_world, uint32_t materia
   placed.object_id = object_id;
   if (keep_uv_) placed.material.uv = std::max(placed.material.uv, UvUse::kIfThere);
   placed.radiance = info.radiance;
+  placed.look = info.look;
   if (presence(info, placed.material) == Presence::kAbsent) return;
   note_mirrored_light(placed, placed.placement.mirrored, loc);
   placed_.push_back(std::move(placed));
@@ -209,40 +212,52 @@ const ShapePlacer::ShapeInfo& ShapePlacer::info(uint32_t index) {
   info.shape = compile_shape(entry, description_, diagnostics_);
   if (!info.shape) return info;
   ++shapes_read_;
-  if (entry.area_light < area_lights_.size()) info.radiance = radiance(entry, *info.shape);
+  if (entry.area_light < area_lights_.size()) make_light(entry, info);
   return info;
 }
 
-/// What the shape emits, in bands; black if it is no light.
-glm::dvec3 ShapePlacer::radiance(const ShapeEntry& entry, const CompiledShape& shape) {
-  const glm::dvec3 black(0.);
-  auto& light = area_lights_[entry.area_light];
-  if (!light)
-    light = std::make_optional(compile_area_light(description_.area_lights[entry.area_light],
-                                                  description_, colour_, diagnostics_));
-  if (!*light) return black;
+/// What the shape emits; it stays black if it is no light.
+void ShapePlacer::make_light(const ShapeEntry& entry, ShapeInfo& info) {
+  const CompiledShape& shape = *info.shape;
+  auto& known = area_lights_[entry.area_light];
+  emission_.set_shape(entry.to_world);
+  if (!known)
+    known = std::make_optional(compile_area_light(description_.area_lights[entry.area_light],
+                                                  description_, emission_, diagnostics_));
+  const std::optional<AreaLight> light = *known;
+  // On the next shape it is another light.
+  if (emission_.saw_shape()) known.reset();
+  if (!light) return;
   if (shape.kind == CompiledShape::Kind::kPlane) {
     diagnostics_.warning(entry.plugin.loc,
                          "an infinite plane cannot be a light: it does not shine");
-    return black;
+    return;
   }
   const auto own = make_placement(entry.to_world, entry.plugin.loc, "the light", diagnostics_);
-  if (!own) return black;
+  if (!own) return;
   const double area = shape.light_area ? *shape.light_area : mesh_area(shape.mesh, *own);
   if (!(area > 0)) {
     diagnostics_.warning(entry.plugin.loc, "the area light has no area: it does not shine");
-    return black;
+    return;
   }
-  const glm::dvec3 radiance = area_light_radiance(**light, area, diagnostics_);
+  const glm::dvec3 radiance = area_light_radiance(*light, area, diagnostics_);
   if (!std::isfinite(float(radiance.x)) || !std::isfinite(float(radiance.y)) ||
       !std::isfinite(float(radiance.z))) {
-    diagnostics_.error((*light)->loc,
+    diagnostics_.error(light->loc,
                        "the area light's radiance is too large for a number: it does "
                        "not shine");
-    return black;
+    return;
   }
-  light_samples_ += (*light)->samples;
-  return radiance;
+  light_samples_ += light->samples;
+  info.radiance = radiance;
+  info.look = light->look;
+  if (info.look.distribution != kNone && shape.kind != CompiledShape::Kind::kMesh) {
+    diagnostics_.warning(entry.plugin.loc,
+                         fmt::format("a light of shape \"{}\" cannot shine by \"mapname\" or "
+                                     "\"iesname\": it shines evenly (Lambertian)",
+                                     entry.plugin.type));
+    info.look.distribution = kNone;
+  }
 }
 
 }  // namespace yat

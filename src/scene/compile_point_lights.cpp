@@ -84,8 +84,7 @@ void compile_point(LightContext& light) {
   Parameters& p = light.p;
   const glm::dvec3 intensity = light_intensity(light, 4 * kPi);
   const glm::dvec3 from = p.triple("from", ParameterType::kPoint, glm::dvec3(0.));
-  const std::string map_name = p.text("mapname", ""), ies_name = p.text("iesname", "");
-  const bool flip_z = p.flag("flipz", false);
+  const std::optional<LightPicture> picture = read_distribution(p, light.description);
   LightRow<Value> row = light_row(LightKind::kPoint, intensity);
   // YART's points do not fall off.
   const bool by_yart = light.description.dialect == Dialect::kYart;
@@ -94,16 +93,6 @@ void compile_point(LightContext& light) {
   const glm::dvec3 at = by_yart ? transform_point(light.entry.to_world, from)
                                 : from + transform_point(light.entry.to_world, glm::dvec3(0.));
   if (!place(light, at, row)) return;
-  std::optional<LightPicture> picture;
-  if (!ies_name.empty()) {
-    if (!map_name.empty())
-      p.diagnostics().warning(p.loc("mapname"),
-                              "a light has an image or an IES profile: the "
-                              "profile is used");
-    picture = read_ies(p, ies_name, flip_z, light.description);
-  } else if (!map_name.empty()) {
-    picture = read_light_picture(p, map_name, 1, light.description);
-  }
   if (!picture) return light.add(row);
   if (!add_map(light, *picture, row)) return;
   // Divided by the mean of the map, so that the flux stays.

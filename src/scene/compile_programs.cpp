@@ -224,7 +224,7 @@ std::vector<TextureProgram> TexturePrograms::finish(const TextureGraph& graph,
     p.derivatives = program.derivatives;
     p.uv = program.uv;
     p.rows = uint32_t(program.nodes.size());
-    const RecordSize record = parameters_size(program.material);
+    const RecordSize record = program_record(program.material);
     p.parameters.resize(size_t(p.rows) * record.row_words);
     for (uint32_t r = 0; r < p.rows; ++r)
       std::copy(program.parameters[r].begin(), program.parameters[r].end(),

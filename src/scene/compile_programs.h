@@ -29,6 +29,10 @@ class TexturePrograms {
   /// A material whose record is `parameters` but for the bindings.
   Ref add(MaterialKind kind, const std::vector<uint32_t>& parameters,
           const std::vector<Binding>& bindings, const Bump& bump, const TextureGraph& graph);
+  /// A light whose bands are this colour.
+  Ref add_light(TextureGraph::Input colour, const TextureGraph& graph) {
+    return add(kNoMaterial, {}, {{0, 3, colour}}, {}, graph);
+  }
   UvUse uv(uint32_t program) const { return programs_[program].uv; }
 
   /// Tables of all programs, once the scene's centre and all images are known.

@@ -50,15 +50,19 @@ enum class TextureUse { kReflectance, kLight };
 
 class TextureCompiler {
  public:
+  /// images: where to read images to, instead of a store of its own of `image_bytes`.
   TextureCompiler(const Description& description, const ColourModel& colour,
                   Diagnostics& diagnostics, uint64_t image_bytes = ImageStore::kDefaultLimit,
-                  TextureUse use = TextureUse::kReflectance)
+                  TextureUse use = TextureUse::kReflectance, ImageStore* images = nullptr)
       : use_(use),
         description_(description),
         colour_(colour),
         diagnostics_(diagnostics),
-        images_(image_bytes),
+        own_images_(image_bytes),
+        images_(images ? *images : own_images_),
         done_(description.textures.size()) {}
+  TextureCompiler(const TextureCompiler&) = delete;
+  TextureCompiler& operator=(const TextureCompiler&) = delete;
 
   /// The texture that a parameter names, as a colour or a number, converted with a warning where it
   /// is the other; empty if there is none.
@@ -112,7 +116,8 @@ class TextureCompiler {
   const ColourModel& colour_;
   Diagnostics& diagnostics_;
   TextureGraph graph_;
-  ImageStore images_;
+  ImageStore own_images_;
+  ImageStore& images_;  ///< these, or those of another compiler
   std::vector<std::optional<std::optional<TextureValue>>> done_;  ///< outer: compiled yet?
   std::vector<Varying> varying_;
   Matrix shape_to_world_{1.};

@@ -356,8 +356,28 @@ inline constexpr float kSkyHorizon = .001f;
 /// Its exponents are not above this, which only odd constants would have them be.
 inline constexpr float kSkyExponent = 40;
 
+/// How the emission of a light with a surface varies: its row's radiance is multiplied by what a
+/// texture program (Scene::emission_programs) says at a point, and by a map of the direction.
+/// A map's own space is the triangle's: z its normal, x along dp/du; its texels are divided by the
+/// cosine to z (kernels/varying_emission.h).
+template <template <class> class Of>
+struct EmissionRow {
+  Of<uint32_t> program;              ///< row of Scene::emission_programs, or kNone
+  Of<uint32_t> parameter;            ///< row of the program's constants
+  Of<uint32_t> map;                  ///< row of LightView::maps, or kNone
+  Of<uint32_t> prim;                 ///< as in Hit
+  Of<float> u0, v0, u1, v1, u2, v2;  ///< triangles: texture coordinates of a, a + b, a + c
+  YAT_FIELDS(program, parameter, map, prim, u0, v0, u1, v1, u2, v2)
+};
+static_assert(all_fields_listed<EmissionRow>);
+
+/// Places of fields in an EmissionRow, for whom one field is enough.
+inline constexpr uint32_t kEmissionProgramWord = 0, kEmissionParameterWord = 1;
+
 struct LightView {
   Rows<LightRow> rows;  ///< those of environments last
+  /// One per light, or none: no light's emission varies.
+  Rows<EmissionRow> emission;
   /// Of all lights; where there is a tree, of those without a place only, numbered from 0.
   Rows<LightChoice> choice;
   LightTreeView tree;

@@ -33,6 +33,8 @@ struct LightColor {
   double y;          ///< luminance of L, without gain
 };
 LightColor light_color(Parameters& p, const Description& description, const ColourModel& colour);
+/// The same for an L of `rgb`.
+LightColor light_color(Parameters& p, const glm::dvec3& rgb, const ColourModel& colour);
 /// The same times lumens / (solid_angle Y(L)) where "power" and "efficacy" are given.
 glm::dvec3 light_intensity(LightContext& light, double solid_angle);
 
@@ -61,5 +63,8 @@ std::optional<LightPicture> read_light_picture(Parameters& p, const std::string&
 /// be read.
 std::optional<LightPicture> read_ies(Parameters& p, const std::string& name, bool flip_z,
                                      const Description& description);
+/// What "iesname", "mapname" and "flipz" of a light say of directions; empty if they say nothing,
+/// or nothing that can be read.
+std::optional<LightPicture> read_distribution(Parameters& p, const Description& description);
 
 }  // namespace yat

@@ -78,4 +78,18 @@ std::optional<LightPicture> read_light_picture(Parameters& p, const std::string&
   return picture;
 }
 
+std::optional<LightPicture> read_distribution(Parameters& p, const Description& description) {
+  const std::string map_name = p.text("mapname", ""), ies_name = p.text("iesname", "");
+  const bool flip_z = p.flag("flipz", false);
+  if (!ies_name.empty()) {
+    if (!map_name.empty())
+      p.diagnostics().warning(p.loc("mapname"),
+                              "a light has an image or an IES profile: the "
+                              "profile is used");
+    return read_ies(p, ies_name, flip_z, description);
+  }
+  if (map_name.empty()) return std::nullopt;
+  return read_light_picture(p, map_name, 1, description);
+}
+
 }  // namespace yat

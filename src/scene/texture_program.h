@@ -30,6 +30,13 @@ enum class UvUse : uint32_t {
   kNeeded,   ///< some step maps by them
 };
 
+/// TextureProgram::material of what makes no material, but the three bands of a light.
+inline constexpr MaterialKind kNoMaterial = MaterialKind::kCount;
+/// Fields and words of the record that a program makes.
+inline RecordSize program_record(MaterialKind kind) {
+  return kind == kNoMaterial ? RecordSize{3, 0} : parameters_size(kind);
+}
+
 struct TextureProgram {
   /// A field of the material's record and the column that holds it.
   struct Field {

@@ -18,6 +18,7 @@
 #include "kernels/table.h"
 #include "soa/columns.h"
 #include "soa/records.h"
+#include "wavefront/emission.h"
 #include "wavefront/plan.h"
 #include "wavefront/split_rows.h"
 #include "wavefront/textures.h"
@@ -50,7 +51,8 @@ struct Batch {
         lights(plan.lights ? kChunkRows : 0),
         certain(plan.light_sampling == LightSampling::kLights && plan.environment ? batch_rows : 0),
         no_density(plan.light_sampling == LightSampling::kBsdf ? batch_rows : 0),
-        textures(scene, *plan.kernels, kChunkRows),
+        textures(scene.programs, scene.colour.reflectance, *plan.kernels, kChunkRows),
+        emission(scene, *plan.kernels, kChunkRows),
         child_u(plan.split_levels ? kChunkRows : 0),
         splits(plan.split_levels),
         veils(plan.veils ? batch_rows : 0) {
@@ -107,6 +109,7 @@ struct Batch {
   AlignedArray<uint32_t> certain;  ///< rows that may count the environment, where not all may
   AlignedArray<float> no_density;  ///< zeros in place of PathState::pdf, where all light met counts
   TextureStage textures;
+  EmissionStage emission;
   AlignedArray<float> child_u;    ///< of a chunk: decides between the children of its material
   std::vector<SplitRows> splits;  ///< per level of materials made of others
   VeilRows veils;
@@ -119,7 +122,8 @@ struct Batch {
                    finished.bytes() + camera.bytes() + film_u.bytes() + film_v.bytes() +
                    lens_u.bytes() + lens_v.bytes() + surfaces.bytes() + tangents.bytes() +
                    chunk_paths.bytes() + randoms.bytes() + lights.bytes() + certain.bytes() +
-                   no_density.bytes() + textures.bytes() + scratch_memory.bytes();
+                   no_density.bytes() + textures.bytes() + emission.bytes() +
+                   scratch_memory.bytes();
     for (int i = 0; i < 2; ++i) total += rays[i].bytes() + paths[i].bytes();
     total += child_u.bytes() + veils.bytes();
     for (const SplitRows& level : splits) total += level.bytes();

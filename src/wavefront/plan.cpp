@@ -108,7 +108,13 @@ void need_kernels(const Plan& plan) {
     need_material(bin, k);
     if (bin.emission)
       need(plan.light_tree ? k.add_tree_emission : k.add_emission, k, "add_emission");
+    if (bin.bin.emission_varies())
+      need(k.make_derivatives && k.apply_emission_maps && k.multiply_colours, k,
+           "apply_emission_maps");
   }
+  if (plan.varying_emission)
+    need(k.sample_varying_lights[plan.light_tree] && k.make_light_points, k,
+         "sample_varying_lights");
   for (const ShadePlan& child : plan.children) need_material(child, k);
   if (plan.split_levels) need(k.choose_child && k.take_rows, k, "choose_child");
   if (plan.veils)
@@ -225,6 +231,7 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
   if (plan.light_tree && plan.light_kernel < kPlainLights &&
       plan.light_kernel != uint32_t(LightKind::kTriangle))
     plan.light_kernel = kPlainLights;
+  plan.varying_emission = plan.lights && scene.emission.size() > 0;
   plan.environment = scene.first_environment < scene.lights.size();
   plan.transport.hide_environment = !scene.show_environment;
   // Scattering vertices beyond the first that plays roulette are needed for it to be played.
@@ -274,8 +281,11 @@ std::string describe_material(const Plan& plan, const ShadePlan& material) {
   std::string what;
   if (!numbers.empty()) what += ", draw" + numbers;
   if (material.sample_lights)
-    what += fmt::format(", {} ({})", plan.light_tree ? "sample_tree_lights" : "sample_lights",
-                        kLightNames[plan.light_kernel]);
+    what += fmt::format(", {} ({})",
+                        plan.varying_emission ? "sample_varying_lights"
+                        : plan.light_tree     ? "sample_tree_lights"
+                                              : "sample_lights",
+                        kLightNames[plan.varying_emission ? kAnyLights : plan.light_kernel]);
   return what + fmt::format(", shade {}", name);
 }
 
@@ -330,6 +340,9 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
                                    kGeometryNames[uint32_t(bin.bin.geometry)]);
     if (bin.bin.tangents) what += ", make_tangents";
     if (bin.emission) what += plan.light_tree ? ", add_tree_emission" : ", add_emission";
+    if (bin.bin.emission_program != kNone)
+      what += " by " + texture_steps(scene.emission_programs[bin.bin.emission_program]);
+    if (bin.bin.emission_by_direction) what += " by direction";
     if (bin.bin.program != kNone) what += ", " + texture_steps(scene.programs[bin.bin.program]);
     line(Stage::kShade, what + describe_material(plan, bin));
   }
@@ -381,6 +394,8 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   skipped(plan.environment, "add_environment", "no light lies around the scene");
   skipped(any_bin([](const BinPlan& b) { return b.emission; }), "add_emission",
           "no surface emits light");
+  skipped(scene.emission.size() > 0, "make_light_points, apply_emission_maps",
+          "every light shines evenly");
   skipped(plan.tangents, "make_tangents", "every material looks the same from all sides");
   skipped(any_bin([](const ShadePlan& b) { return b.program != kNone; }), "textures",
           "no material varies over its surface");

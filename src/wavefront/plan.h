@@ -72,7 +72,8 @@ struct Plan {
   uint32_t light_kernel = 0;      ///< index into KernelTable::sample_lights or sample_tree_lights
   bool light_tree = false;        ///< lights are chosen by the tree over them
   bool lights = false;
-  bool environment = false;  ///< lights that rays find which leave the scene
+  bool varying_emission = false;  ///< some light does not shine evenly: light samples are weighed
+  bool environment = false;       ///< lights that rays find which leave the scene
 };
 
 struct PlanOptions {

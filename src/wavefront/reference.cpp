@@ -75,6 +75,7 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
     if (const double cos = glm::dot(hit->ng, wo); hit->light != kNone && cos > 0) {
       const double sampled = scattered_pdf > 0 ? light_pdf(scene, scattered_at, *hit, cos) : 0;
       radiance += throughput * light_radiance(scene, hit->light) *
+                  emission_factor(scene, hit->light, *hit, wo, width) *
                   weight_of_met(plan.light_sampling, scattered_pdf, sampled);
     }
     if (material_traits(material).see_through) {

@@ -162,14 +162,7 @@ Point sphere_point(const SphereRow<Value>& row, const RaySegment& ray, double t)
   point.offset = kRounding * (largest(center) + double(row.radius));
   point.parameter = row.parameter;
   point.light = row.light;
-  const Vec x(row.x_x, row.x_y, row.x_z), z(row.z_x, row.z_y, row.z_z);
-  const Vec y = double(row.hand) * glm::cross(z, x);
-  set_texture_axes(point, double(row.radius), [&](const Vec& at) {
-    const Vec out = at - center;
-    const double u = std::atan2(glm::dot(out, y), glm::dot(out, x)) / (2 * std::numbers::pi);
-    const double from_north = std::acos(glm::dot(glm::normalize(out), z)) / std::numbers::pi;
-    return glm::dvec2(u < 0 ? u + 1 : u, 1 - from_north);
-  });
+  set_texture_axes(point, double(row.radius), [&](const Vec& at) { return sphere_uv(row, at); });
   return point;
 }
 
@@ -189,6 +182,15 @@ Point plane_point(const PlaneRow<Value>& row, const RaySegment& ray, double t) {
 }
 
 }  // namespace
+
+glm::dvec2 sphere_uv(const SphereRow<Value>& row, const Vec& position) {
+  const Vec x(row.x_x, row.x_y, row.x_z), z(row.z_x, row.z_y, row.z_z);
+  const Vec y = double(row.hand) * glm::cross(z, x);
+  const Vec out = position - Vec(row.center_x, row.center_y, row.center_z);
+  const double u = std::atan2(glm::dot(out, y), glm::dot(out, x)) / (2 * std::numbers::pi);
+  const double from_north = std::acos(glm::dot(glm::normalize(out), z)) / std::numbers::pi;
+  return {u < 0 ? u + 1 : u, 1 - from_north};
+}
 
 std::optional<Point> nearest(const Scene& scene, const RaySegment& ray) {
   std::optional<Point> best;

@@ -246,6 +246,8 @@ LightPoint sample_light(const Scene& scene, const Receiver& lit, float choice, d
     case LightKind::kCount:
       break;
   }
+  if (scene.emission.size() > 0 && inverse_pdf > 0)
+    shade *= emission_factor(scene, chosen, pick.to, -pick.wi);
   pick.arriving = light_radiance(scene, chosen) * shade * (inverse_pdf / chance);
   pick.pdf *= nominal;
   return pick;

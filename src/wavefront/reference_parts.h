@@ -47,6 +47,8 @@ CameraStart camera_ray(const Scene& scene, const Plan& plan, uint32_t x, uint32_
 RaySegment camera_segment(const CameraView& camera, CameraKind kind, double px, double py, double u,
                           double v);
 
+/// Texture coordinates of a point of the sphere.
+glm::dvec2 sphere_uv(const SphereRow<Value>& row, const Vec& position);
 /// The nearest hit in (0, t_max], by trying every primitive.
 std::optional<Point> nearest(const Scene& scene, const RaySegment& ray);
 /// Unit, across the shading normal: along dp/du where there is one.
@@ -78,6 +80,9 @@ Vec cone(double measure, double u, double v);
 /// Diameter of what a ray stands for where it meets a surface: `distance` from the last scattering
 /// vertex, which chose it with density pdf (0: a pixel's width from the camera), under this cosine.
 double footprint(const Scene& scene, double distance, double pdf, double cosine);
+/// The colour that a row of Scene::emission_programs has there.
+Vec light_texture(const Scene& scene, uint32_t program, uint32_t row, const Point& point,
+                  double width);
 /// Bends the shading normal as the material's bump or normal map says.
 void bend_normal(const Scene& scene, uint32_t program, uint32_t row, Point& point, double width);
 /// The record of the material there, with what textures make of it. width: footprint().
@@ -166,7 +171,14 @@ LightPoint sample_light(const Scene& scene, const Receiver& receiver, float choi
                         double v);
 /// The density of sample_light for the point `at` of its light from `receiver`, by nominal chance.
 double light_pdf(const Scene& scene, const Vec& receiver, const Point& at, double cos);
+/// Of the light's row.
 Vec light_radiance(const Scene& scene, uint32_t light);
+/// What the light emits at a point into `direction` (unit), over the radiance of its row; of `at`,
+/// position, ng, u, v, du, dv and prim are read. width: footprint().
+Vec emission_factor(const Scene& scene, uint32_t light, const Point& at, const Vec& direction,
+                    double width);
+/// The same at the sampled point whose shadow ray ends at `to`.
+Vec emission_factor(const Scene& scene, uint32_t light, const Vec& to, const Vec& direction);
 
 /// What an environment light shows in direction w (unit).
 struct SeenEnvironment {

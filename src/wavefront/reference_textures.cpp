@@ -231,16 +231,11 @@ namespace {
 /// The columns that a program's steps leave.
 std::vector<double> run_steps(const Scene& scene, const TextureProgram& program,
                               const std::vector<TextureStep>& steps, uint32_t row,
-                              const TexturePlace& at) {
+                              const TexturePlace& at, const BandBasis& basis) {
   std::vector<double> columns(program.columns);
   for (const TextureStep& step : steps) {
-    StepPlace place{at,
-                    step.variant,
-                    {},
-                    {},
-                    uint32_t(step.out.size()),
-                    scene.texels.view(),
-                    scene.colour.reflectance};
+    StepPlace place{at,   step.variant, {}, {}, uint32_t(step.out.size()), scene.texels.view(),
+                    basis};
     for (size_t k = 0; k < step.in.size(); ++k)
       for (size_t c = 0; c < 3; ++c) place.input[k][c] = columns[step.in[k][c]];
     const uint32_t constants = step.rows == 1 ? 0 : row;
@@ -263,7 +258,7 @@ void bend_normal(const Scene& scene, uint32_t number, uint32_t row, Point& point
   const TextureProgram& program = scene.programs[number];
   const TexturePlace here = place_of(point, width);
   const auto heights = [&](const TexturePlace& at) {
-    return run_steps(scene, program, program.bump_steps, row, at);
+    return run_steps(scene, program, program.bump_steps, row, at, scene.colour.reflectance);
   };
   const Vec n = point.ns;
   const bool mapped = glm::length(glm::cross(point.du, point.dv)) > 0;
@@ -312,11 +307,24 @@ std::vector<uint32_t> material_parameters(const Scene& scene, MaterialKind kind,
   std::vector<uint32_t> words(from, from + size.fields);
   if (!textured) return words;
   const TextureProgram& program = scene.programs[number];
-  const std::vector<double> columns =
-      run_steps(scene, program, program.steps, row, place_of(point, width));
+  const std::vector<double> columns = run_steps(scene, program, program.steps, row,
+                                                place_of(point, width), scene.colour.reflectance);
   for (const TextureProgram::Field& field : program.fields)
     words[field.field] = std::bit_cast<uint32_t>(float(columns[field.column]));
   return words;
+}
+
+Vec light_texture(const Scene& scene, uint32_t number, uint32_t row, const Point& point,
+                  double width) {
+  const TextureProgram& program = scene.emission_programs[number];
+  TexturePlace at = place_of(point, width);
+  at.normal = point.ng;
+  const std::vector<double> columns =
+      run_steps(scene, program, program.steps, row, at, scene.colour.light);
+  Vec colour;
+  for (const TextureProgram::Field& field : program.fields)
+    colour[int(field.field)] = columns[field.column];
+  return colour;
 }
 
 }  // namespace yat::reference

@@ -234,6 +234,9 @@ void Worker::shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end) {
     clock_.enter(Stage::kEmission, n);
     const auto add = plan_.light_tree ? kernels_.add_tree_emission : kernels_.add_emission;
     PathState<ConstColumn> paths = rows.paths;
+    if (bin.bin.emission_varies())
+      paths = batch_.emission.tint(
+          bin.bin, {view_, rows.geometry, rows.order, rows.instance, rows.bendable, rows.paths, n});
     if (plan_.light_sampling == LightSampling::kLights)
       forget_lights(paths.pdf, batch_.surfaces.columns().light, n);
     else if (plan_.light_sampling == LightSampling::kBsdf)
@@ -301,7 +304,12 @@ void Worker::shade_rows(const ShadePlan& plan, const ChunkRows& rows) {
   LightSample<ConstColumn> lights{};
   if (plan.sample_lights) {
     clock_.enter(Stage::kLightSample, n);
-    if (plan_.light_tree)
+    if (plan_.varying_emission) {
+      kernels_.sample_varying_lights[plan_.light_tree](view_, rows.surfaces, drawn, plan.all_around,
+                                                       batch_.lights.columns(),
+                                                       batch_.emission.lights(), n);
+      batch_.emission.scale(view_, batch_.lights.columns(), n);
+    } else if (plan_.light_tree)
       kernels_.sample_tree_lights[plan_.light_kernel](view_, rows.surfaces, drawn, plan.all_around,
                                                       batch_.lights.columns(), n);
     else

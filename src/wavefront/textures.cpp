@@ -4,14 +4,13 @@
 
 namespace yat {
 
-TextureStage::TextureStage(const Scene& scene, const KernelTable& kernels, uint32_t chunk_rows)
-    : kernels_(kernels),
-      stride_(padded_rows(chunk_rows) + kRowPad),
-      basis_(scene.colour.reflectance) {
+TextureStage::TextureStage(std::span<const TextureProgram> programs, const BandBasis& basis,
+                           const KernelTable& kernels, uint32_t chunk_rows)
+    : kernels_(kernels), stride_(padded_rows(chunk_rows) + kRowPad), basis_(basis) {
   uint32_t most = 0;
   bool derivatives = false, bumps = false;
-  for (const TextureProgram& program : scene.programs) {
-    most = std::max(most, program.columns + parameters_size(program.material).fields);
+  for (const TextureProgram& program : programs) {
+    most = std::max(most, program.columns + program_record(program.material).fields);
     derivatives = derivatives || program.derivatives;
     bumps = bumps || !program.bump_steps.empty();
   }
@@ -23,13 +22,13 @@ TextureStage::TextureStage(const Scene& scene, const KernelTable& kernels, uint3
     heights_.resize(size_t(3) * stride_);
   }
 
-  programs_.reserve(scene.programs.size());
-  for (const TextureProgram& source : scene.programs) {
+  programs_.reserve(programs.size());
+  for (const TextureProgram& source : programs) {
     Program& program = programs_.emplace_back();
     program.source = &source;
     for (const TextureStep& step : source.steps) program.steps.push_back(view_of(step));
     for (const TextureStep& step : source.bump_steps) program.bump_steps.push_back(view_of(step));
-    const RecordSize record = parameters_size(source.material);
+    const RecordSize record = program_record(source.material);
     program.row_words = record.row_words;
     program.fields.resize(record.fields);
     program.spread.resize(record.fields);
@@ -98,13 +97,25 @@ ParameterView TextureStage::run(uint32_t number, const Chunk& chunk) {
     input.derivatives = derivatives_.view();
   }
   if (!program.bump_steps.empty()) bend(program, chunk, input);
+  return run_steps(program, input, chunk.n);
+}
+
+ParameterView TextureStage::run(uint32_t number, const Surface<ConstColumn>& points,
+                                const SurfaceDerivatives<ConstColumn>& derivatives,
+                                const TexelView& texels, uint32_t n) {
+  return run_steps(programs_[number], {points, derivatives, texels, basis_}, n);
+}
+
+ParameterView TextureStage::run_steps(const Program& program, const TextureInput& input,
+                                      uint32_t n) {
+  const TextureProgram& source = *program.source;
   const ParameterView rows{source.parameters.data(), source.rows, nullptr};
   if (source.fields.empty()) return rows;
   for (size_t s = 0; s < program.steps.size(); ++s)
-    kernels_.run_texture[uint32_t(source.steps[s].kind)](input, program.steps[s], chunk.n);
+    kernels_.run_texture[uint32_t(source.steps[s].kind)](input, program.steps[s], n);
   if (program.spreads)
-    kernels_.spread_parameters(rows, program.row_words, chunk.surfaces.parameter,
-                               program.spread.data(), uint32_t(program.spread.size()), chunk.n);
+    kernels_.spread_parameters(rows, program.row_words, input.surfaces.parameter,
+                               program.spread.data(), uint32_t(program.spread.size()), n);
   return {rows.words, rows.count, program.fields.data()};
 }
 

@@ -6,6 +6,7 @@
 // Fields that no texture gives are spread into columns beside them. A bump map comes first: it
 // bends the shading normals of the surfaces.
 
+#include <span>
 #include <vector>
 
 #include "kernels/table.h"
@@ -16,8 +17,10 @@ namespace yat {
 
 class TextureStage {
  public:
-  /// Room for the largest program of the scene; none where nothing is textured.
-  TextureStage(const Scene& scene, const KernelTable& kernels, uint32_t chunk_rows);
+  /// Room for the largest of the programs, which must live as long; none where there are none.
+  /// basis: of the colours that they make.
+  TextureStage(std::span<const TextureProgram> programs, const BandBasis& basis,
+               const KernelTable& kernels, uint32_t chunk_rows);
   // Steps point into this object's own memory.
   TextureStage(const TextureStage&) = delete;
   TextureStage& operator=(const TextureStage&) = delete;
@@ -32,8 +35,13 @@ class TextureStage {
     const PathState<ConstColumn>& paths;
     uint32_t n;
   };
-  /// Runs Scene::programs[program]. The view holds until the next call.
+  /// Runs a program. The view holds until the next call.
   ParameterView run(uint32_t program, const Chunk& chunk);
+  /// The same at points that no ray sees: of their surfaces pos, ns, u, v, prim and parameter are
+  /// read. derivatives: null columns, or what programs that ask for them get.
+  ParameterView run(uint32_t program, const Surface<ConstColumn>& points,
+                    const SurfaceDerivatives<ConstColumn>& derivatives, const TexelView& texels,
+                    uint32_t n);
 
   size_t bytes() const {
     return columns_.bytes() + derivatives_.bytes() + moved_.bytes() + heights_.bytes();
@@ -53,6 +61,7 @@ class TextureStage {
   TextureStepView view_of(const TextureStep& step);
   float* column(uint32_t c) { return columns_.data() + size_t(c) * stride_; }
   void bend(const Program& program, const Chunk& chunk, TextureInput& input);
+  ParameterView run_steps(const Program& program, const TextureInput& input, uint32_t n);
 
   const KernelTable& kernels_;
   uint32_t stride_;
