@@ -132,6 +132,8 @@ std::optional<AreaLight> compile_area_light(const AreaLightEntry& entry,
   }
   light.samples = light_samples(p);
   light.look.distribution = emission.distribution(p);
+  // Where they are counted from.
+  if (light.look.distribution != kNone) light.look.uv = std::max(light.look.uv, UvUse::kIfThere);
   p.accept({"importance"});
   p.report_unused();
   return light;
