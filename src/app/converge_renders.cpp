@@ -73,7 +73,7 @@ RunResult ConvergeRenders::run(const ConvergeVariant& variant, uint32_t spp, uin
   RunResult result;
   const double before = cpu_seconds();
   result.totals =
-      render_passes(compiled, planned, limits, false, pool(variant), film, nullptr, progress, stop);
+      render_passes({compiled, planned, pool(variant), progress, stop}, limits, film, nullptr);
   result.cpu_seconds = cpu_seconds() - before;
   const uint64_t samples = film.total_samples();
   if (samples == 0 && !stop)
