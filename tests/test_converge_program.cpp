@@ -80,6 +80,12 @@ TEST_F(Converge, ComparesVariantsAndGoesOnWhereItWas) {
             .7 * double(all["summary"]["variants"][0]["rungs"][1]["mse"]["value"]));
   EXPECT_LT(double(sobol["slope"]["value"]), -.6);
   EXPECT_TRUE(fs::exists(folder_ / "out" / "reference.exr"));
+  // The page needs nothing from elsewhere.
+  const std::string page = read_whole(folder_ / "out" / "report.html");
+  EXPECT_NE(page.find("At equal CPU time"), std::string::npos);
+  EXPECT_EQ(page.find("src=\"http"), std::string::npos);
+  EXPECT_EQ(page.find("<link"), std::string::npos);
+  EXPECT_TRUE(read_whole(folder_ / "out" / "error-time.svg").starts_with("<svg xmlns="));
 
   // Again: nothing is measured, and the same is said. More runs: only those.
   const ProgramResult again = converge(two);

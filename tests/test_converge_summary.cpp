@@ -92,6 +92,7 @@ TEST(Summary, KnowsSlopesAndEfficienciesOfSyntheticMethods) {
   const RungSummary& better = s.variants[1].top();
   EXPECT_NEAR(better.ttuv_ratio.value, 1. / 6, .01);
   EXPECT_TRUE(better.ttuv_ratio.interval.excludes(1));
+  EXPECT_NEAR(better.rel_cpu_ratio.value, 1. / 6, .01);
   int held = 0;
   for (const RungSummary& r : s.variants[1].rungs) held += !r.ttuv_ratio.interval.excludes(1. / 6);
   EXPECT_GE(held, 3) << "of 5 intervals that should each hold the truth 19 times of 20";

@@ -9,12 +9,10 @@
 #include "app/build_info.h"
 #include "app/converge_record.h"
 #include "app/converge_renders.h"
+#include "app/converge_report.h"
 #include "app/interrupt.h"
-#include "base/whole_file.h"
 #include "converge/folder.h"
 #include "converge/ladder.h"
-#include "converge/summary_json.h"
-#include "converge/summary_text.h"
 #include "film/output.h"
 
 namespace yat {
@@ -119,7 +117,6 @@ class ConvergeRun {
   void warm_up(std::atomic<bool>& stop);
   void measure(size_t variant, size_t rung, uint32_t run, std::atomic<bool>& stop);
   void measure_all(std::atomic<bool>& stop);
-  void report();
 
   const ConvergeArguments& arguments_;
   Console& console_;
@@ -261,26 +258,6 @@ void ConvergeRun::measure_all(std::atomic<bool>& stop) {
       }
 }
 
-void ConvergeRun::report() {
-  Experiment experiment;
-  for (const ConvergeVariant& variant : arguments_.variants)
-    experiment.variants.push_back(variant.name);
-  experiment.ladder = arguments_.ladder;
-  experiment.runs = folder_.runs();
-  experiment.reference = &reference_;
-  for (const PixelMoments& moments : moments_) experiment.moments.push_back(&moments);
-  const ConvergeSummary summary = summarize(experiment);
-
-  Json runs = Json::array();
-  for (const RunRecord& record : folder_.runs()) runs.push_back(record_json(record));
-  const Json all = {{"experiment", experiment_header(arguments_, renders_, given_)},
-                    {"summary", summary_json(summary)},
-                    {"runs", runs}};
-  write_whole_file(folder_.file("report.json"),
-                   all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-  print(converge_tables(summary));
-}
-
 ExitCode ConvergeRun::go() {
   bool interrupted = false;
   {
@@ -297,9 +274,12 @@ ExitCode ConvergeRun::go() {
       measure_all(stop);
     }
     progress_.end();
+    if (have_reference_)
+      write_report({arguments_, renders_, folder_, experiment_header(arguments_, renders_, given_),
+                    reference_, moments_},
+                   console_, stop);
     interrupted = guard.interrupted();
   }
-  if (have_reference_) report();
   if (interrupted)
     console_.line(fmt::format(
         "interrupted: {} runs are finished and kept in {}; the same command goes on from there",

@@ -79,6 +79,11 @@ double ttuv_of(const Runs& r, const std::vector<double>& seconds, double off,
   return (mean_of(drawn(r.mse, draw)) - off) * median_of(drawn(seconds, draw));
 }
 
+/// The same of relMSE.
+double rel_variance_off(const Runs& r, const Reference& reference) {
+  return part_to_subtract(mean_of(r.rel_mse), mean_relative_variance(reference, r.epsilon));
+}
+
 RungSummary summarize_rung(const Runs& r, const Runs& first, const Reference& reference,
                            const ConvergeSummary& all) {
   RungSummary s;
@@ -87,8 +92,7 @@ RungSummary summarize_rung(const Runs& r, const Runs& first, const Reference& re
   s.mse_measured = mean_of(r.mse);
   s.reference_share = all.reference_variance / s.mse_measured;
   const double off = subtracted(r, all), off_first = subtracted(first, all);
-  const double rel_off =
-      part_to_subtract(mean_of(r.rel_mse), mean_relative_variance(reference, r.epsilon));
+  const double rel_off = rel_variance_off(r, reference);
   const auto mean_less = [](const std::vector<double>& values, double less) {
     return [&values, less](std::span<const uint32_t> draw) {
       return mean_of(drawn(values, draw)) - less;
@@ -119,6 +123,15 @@ RungSummary summarize_rung(const Runs& r, const Runs& first, const Reference& re
   };
   efficiency(&Runs::seconds, s.ttuv, s.ttuv_ratio);
   efficiency(&Runs::cpu_seconds, s.ttuv_cpu, s.ttuv_cpu_ratio);
+  if (const uint32_t pairs = std::min(s.runs, first.count()); pairs > 0) {
+    const double rel_off_first = rel_variance_off(first, reference);
+    const auto product = [](const Runs& of, double less, std::span<const uint32_t> draw) {
+      return (mean_of(drawn(of.rel_mse, draw)) - less) * median_of(drawn(of.cpu_seconds, draw));
+    };
+    s.rel_cpu_ratio = measure(pairs, [&](std::span<const uint32_t> draw) {
+      return product(r, rel_off, draw) / product(first, rel_off_first, draw);
+    });
+  }
   return s;
 }
 

@@ -38,6 +38,9 @@ struct RungSummary {
   double seconds = 0, fastest = 0, seconds_deviation = 0, cpu_seconds = 0;
   Measured ttuv, ttuv_cpu;              ///< by wall and by CPU time
   Measured ttuv_ratio, ttuv_cpu_ratio;  ///< to the first variant's, from the same seeds
+  /// relMSE x CPU time, ratio to the first variant's: what the ratio of TTUV is without the rule of
+  /// bright pixels.
+  Measured rel_cpu_ratio;
   /// Trimmed and untrimmed relMSE differ by more than 2x: rare bright pixels make the error, and
   /// nothing that is said of it can be relied on.
   bool unreliable = false;

@@ -31,7 +31,8 @@ Json rung_json(const RungSummary& r) {
       {"ttuv", measured(r.ttuv)},
       {"ttuv_cpu", measured(r.ttuv_cpu)},
       {"ttuv_ratio", measured(r.ttuv_ratio)},
-      {"ttuv_cpu_ratio", measured(r.ttuv_cpu_ratio)}};
+      {"ttuv_cpu_ratio", measured(r.ttuv_cpu_ratio)},
+      {"relmse_cpu_ratio", measured(r.rel_cpu_ratio)}};
 }
 
 Json variant_json(const VariantSummary& v) {

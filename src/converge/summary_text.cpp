@@ -79,13 +79,14 @@ std::string converge_tables(const ConvergeSummary& summary) {
       "\nAt {} spp; ratio: of TTUV to the first variant's, below 1 is less time to the same error; "
       "[95 % interval]; ~ extrapolated\n",
       spp);
-  table = {{"variant", "TTUV ratio", "by CPU time", "slope", "to relMSE 1e-2", "to 1e-3",
-            "outliers", "trimmed"}};
+  table = {{"variant", "TTUV ratio", "by CPU time", "relMSE x CPU", "slope", "to relMSE 1e-2",
+            "to 1e-3", "outliers", "trimmed"}};
   for (const VariantSummary& v : summary.variants) {
     const RungSummary& r = v.rungs[v.headline];
     table.push_back({v.name, measured_text(r.ttuv_ratio), measured_text(r.ttuv_cpu_ratio),
-                     measured_text(v.slope), time_text(v.to_rel_mse[0]), time_text(v.to_rel_mse[1]),
-                     number(r.outliers), r.unreliable ? "unreliable" : number(r.rel_mse_trimmed)});
+                     measured_text(r.rel_cpu_ratio), measured_text(v.slope),
+                     time_text(v.to_rel_mse[0]), time_text(v.to_rel_mse[1]), number(r.outliers),
+                     r.unreliable ? "unreliable" : number(r.rel_mse_trimmed)});
   }
   text += aligned(table) + "\nMean of the runs against the reference, at the highest rung:\n";
   for (const VariantSummary& v : summary.variants)
