@@ -1,0 +1,151 @@
+// The formulas behind the known answers against figures in print, and bench_accuracy itself on a
+// few cases.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "accuracy/form_factors.h"
+#include "accuracy/fresnel.h"
+#include "accuracy/lobes.h"
+#include "accuracy/report.h"
+#include "run_program.h"
+
+namespace yat::accuracy {
+namespace {
+
+using Vec = glm::dvec3;
+using Json = nlohmann::json;
+
+TEST(Accuracy, QuadratureIsExactForPolynomialsAndSmoothFunctions) {
+  EXPECT_NEAR(integrate(0, 2, 1, [](double x) { return std::pow(x, 31); }) / std::pow(2, 27), 1,
+              1e-13);
+  EXPECT_NEAR(integrate(0, kPi, 4, [](double x) { return std::sin(x); }), 2, 1e-14);
+  // A kink between intervals does no harm.
+  EXPECT_NEAR(integrate_between({-1, 0, 2}, 1, [](double x) { return std::fabs(x); }), 2.5, 1e-14);
+}
+
+TEST(Accuracy, PolygonsHaveLambertsIrradiance) {
+  const Vec o(0), up(0, 0, 1);
+  EXPECT_NEAR(rectangle_irradiance(o, up, {-.5, -.5, 1}, {1, 0, 0}, {0, 1, 0}), .752274688, 1e-9);
+  EXPECT_NEAR(rectangle_irradiance(o, up, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}), .435209876, 1e-9);
+  EXPECT_NEAR(polygon_irradiance(o, up, {{1, 0, 2}, {0, 1, 2}, {-1, -1, 3}}), .258953915, 1e-9);
+  // A wall that goes on for ever on both sides and upwards fills half of what its foot sees; what
+  // is below the horizon does not count.
+  EXPECT_NEAR(rectangle_irradiance(o, up, {-1e7, 1, -50}, {2e7, 0, 0}, {0, 0, 1e7}), kPi / 2, 1e-5);
+  EXPECT_EQ(rectangle_irradiance(o, up, {-1, -1, -1}, {2, 0, 0}, {0, 2, 0}), 0);
+}
+
+TEST(Accuracy, FormFactorsOfACubeAddUp) {
+  const double opposite = opposite_form_factor(1, 1, 1);
+  EXPECT_NEAR(opposite, .199824896, 1e-9);
+  EXPECT_NEAR((1 - opposite) / 4, .200043776, 1e-9);
+  const double by_points = integrate(0, 1, 4, [](double x) {
+    return integrate(0, 1, 4, [x](double y) {
+      return rectangle_irradiance({x, y, 0}, {0, 0, 1}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}) / kPi;
+    });
+  });
+  EXPECT_NEAR(by_points, opposite, 1e-9);
+}
+
+TEST(Accuracy, GlassReflectsByFresnel) {
+  EXPECT_NEAR(mean_fresnel(1.5), .091777959, 1e-7);
+  EXPECT_NEAR(slab(1.5, 1).reflected, .076923077, 1e-9);
+  EXPECT_NEAR(slab(1.5, 1).transmitted, .923076923, 1e-9);
+  const Slab oblique = slab(1.5, .4);
+  EXPECT_NEAR(oblique.reflected + oblique.transmitted, 1, 1e-14);
+  EXPECT_LT(slab(1.5, .4, .9).reflected + slab(1.5, .4, .9).transmitted, 1);
+}
+
+TEST(Accuracy, AlbedosOfGgxAreThoseInPrint) {
+  EXPECT_NEAR(ggx_albedo(1, 1), 1 - std::log(2), 1e-6);
+  const double expected[3][3] = {
+      {.9883, .9692, .8834}, {.8775, .8216, .8888}, {.6882, .6982, .8601}};
+  const double alphas[3] = {.1, .3, .5}, cosines[3] = {1, .5, .1};
+  for (int a = 0; a < 3; ++a)
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(ggx_albedo(alphas[a], cosines[c]), expected[a][c], 4e-4)
+          << alphas[a] << " " << cosines[c];
+  // With roughness 1 LuxRender's lobe has G = c, whatever the direction.
+  for (const double c : cosines) EXPECT_NEAR(luxrender_albedo(1, c), .25, 1e-6);
+  EXPECT_NEAR(cook_torrance_albedo(.01, 1), 1, 1e-4);
+}
+
+TEST(Accuracy, ADeviationIsJudgedBySigmaAndByTheStandardError) {
+  Outcome outcome;
+  outcome.known = {2, 0};
+  outcome.measured.value = 2.003;
+  outcome.measured.error = .0015;
+  EXPECT_NEAR(outcome.sigma(), 2, 1e-5);
+  EXPECT_NEAR(outcome.relative_error(), 7.5e-4, 1e-12);
+  EXPECT_TRUE(outcome.within({3, 1e-3}));
+  EXPECT_FALSE(outcome.within({1.9, 1e-3}));
+  EXPECT_FALSE(outcome.within({3, 7e-4}));
+  outcome.measured.value = std::nan("");
+  EXPECT_FALSE(outcome.within({3, 1e-3}));
+  // What never varies is known to the roundings of single precision.
+  outcome.measured.error = 0;
+  outcome.measured.value = 2 * (1 + 2e-6);
+  EXPECT_NEAR(outcome.sigma(), 2, 1e-3);
+  // Nothing is exactly nothing.
+  outcome.known.value = 0;
+  outcome.measured.value = 0;
+  EXPECT_TRUE(outcome.within({3, 1e-3}));
+  outcome.measured.value = 1e-12;
+  EXPECT_FALSE(outcome.within({3, 1e-3}));
+}
+
+class AccuracyProgram : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+    folder = std::filesystem::path(YAT_TEST_OUTPUT_DIR) / "accuracy" / test->name();
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+  }
+  ProgramResult run(std::vector<std::string> options) const {
+    options.insert(options.begin(), std::string(YAT_BENCH_DIR) + "/bench_accuracy");
+    return run_program(options, folder);
+  }
+  std::filesystem::path folder;
+};
+
+TEST_F(AccuracyProgram, FewSamplesComeNearTheKnownAnswers) {
+  const ProgramResult result =
+      run({"--filter", "lights,rooms.concentric,glass.slab,lobes.luxrender.0.3,cie.5.3", "--runs",
+           "16", "--scale", ".01", "--sigma", "6", "--error", "5", "--json", "accuracy.json",
+           "--threads", "1"});
+  EXPECT_EQ(result.code, 0) << result.out << result.err;
+  const Json report = Json::parse(read_whole(folder / "accuracy.json"));
+  EXPECT_EQ(report["program"], "bench_accuracy");
+  ASSERT_EQ(report["cases"].size(), 8u + 2 + 4 + 3 + 10);
+  for (const Json& row : report["cases"]) {
+    EXPECT_GT(row["samples"], 0) << row["name"];
+    EXPECT_EQ(row["within"], true) << row["name"];
+    if (!row.contains("published")) continue;
+    EXPECT_NEAR(double(row["published"]) / double(row["expected"]), 1, 3e-3) << row["name"];
+  }
+}
+
+TEST_F(AccuracyProgram, EndsWithOneWhereACaseIsNotWithinTheLimits) {
+  const std::vector<std::string> few = {"--filter", "lights.square", "--runs",    "4",
+                                        "--scale",  ".001",          "--threads", "1"};
+  std::vector<std::string> strict = few;
+  strict.insert(strict.end(), {"--sigma", "1e-9", "--error", "100"});
+  EXPECT_EQ(run(strict).code, 1);
+  strict = few;
+  strict.insert(strict.end(), {"--sigma", "1e9", "--error", "1e-9"});
+  EXPECT_EQ(run(strict).code, 1);
+  EXPECT_EQ(run({"--filter", "no such case"}).code, 2);
+}
+
+TEST_F(AccuracyProgram, ListsItsCases) {
+  const ProgramResult result = run({"--list", "--filter", "rooms.cube"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.out.find("rooms.cube.opposite"), std::string::npos);
+  EXPECT_EQ(result.out.find("lights"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace yat::accuracy
