@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "environment_scenes.h"
+#include "many_lights.h"
 #include "oracle.h"
 #include "per_isa.h"
 #include "shared_scenes.h"
@@ -60,6 +61,18 @@ TEST_P(Oracle, PathsOfEachWayToFindLightAgreeOneByOne) {
       EXPECT_GT(agreement(scene, make_plan(scene, kernels(), options), 4, 1e-2), .96);
     }
   }
+}
+
+// Corners whose differences are not exact: the oracle's shadow rays once ended behind such lamps.
+TEST_P(Oracle, PathsToObliqueLampsAgreeOneByOne) {
+  std::string text = view_text("0 -2.6 .4", "0 .2 -.7", 40, 32, 24) + matte_text(".6 .6 .6") +
+                     quad_text("-1 -1 -1", "1 -1 -1", "1 1 -1", "-1 1 -1");
+  text += "AttributeBegin\nTranslate 0 -.3 1.2\nScale .8 .8 .8\n" + lamps_text(12, .45, 1) +
+          "AttributeEnd\n";
+  const Scene scene = compile_text(text + "WorldEnd\n", kernels());
+  PlanOptions options;
+  options.max_depth = 3;
+  EXPECT_GT(agreement(scene, make_plan(scene, kernels(), options), 8, 1e-3), .99);
 }
 
 TEST_P(Oracle, DirectPathsAgreeOneByOne) {

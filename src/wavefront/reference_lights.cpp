@@ -32,10 +32,12 @@ void pick_triangle(const LightRow<Value>& row, const Vec& receiver, double u, do
   const double squared = glm::dot(way, way);
   pick.wi = glm::normalize(way);
   const double cos = -glm::dot(normal, pick.wi);
-  // Off the light, so that it does not shadow itself.
-  // An instance's triangle lies where its map puts it, which the row's floats round.
-  pick.to = point + normal * (1e-12 * (glm::length(point) + glm::length(e1) + glm::length(e2)) +
-                              double(row.further));
+  // Off the light, so that it does not shadow itself: the row's edges are rounded differences of
+  // the corners, and an instance's triangle lies where its map puts it, which the row's floats
+  // round.
+  pick.to =
+      point + normal * (0x1p-22 * (glm::length(axis_a(row)) + glm::length(e1) + glm::length(e2)) +
+                        double(row.further));
   if (cos > 0 && squared > 0) {
     inverse_pdf = double(row.extra) * cos / squared;
     pick.pdf = 1 / inverse_pdf;
