@@ -33,6 +33,8 @@ struct Runs {
 
 /// Edges [pixels] of the tiles (Jung et al.), and of those whose p-values have their shape tested.
 inline constexpr uint32_t kTile = 16, kShapeTile = 8;
+/// Least share of pixels and channels that must pass, each at 1 % over all pixels.
+inline constexpr double kPixelsPassing = .9975;
 /// Relative rounding of a picture's values: single precision, a few hundred operations.
 inline constexpr double kPictureRounding = 2e-6;
 
@@ -67,7 +69,7 @@ struct PictureTest {
   double difference = 0;  ///< of the whole pictures' means, relative; of the worst channel
   std::string worst;      ///< the worst tile, for people
   double p_value() const { return sidak_p_value(std::min({whole, tiles, shape}), 3); }
-  bool passes(double alpha) const { return p_value() >= alpha && pixels_passing >= .9975; }
+  bool passes(double alpha) const { return p_value() >= alpha && pixels_passing >= kPixelsPassing; }
   std::string text() const {
     return "p " + std::to_string(p_value()) + " (whole " + std::to_string(whole) + ", tiles " +
            std::to_string(tiles) + ", shape " + std::to_string(shape) + "), pixels passing " +
@@ -79,13 +81,14 @@ struct PictureTest {
 
 namespace detail {
 
-inline double rounding(const Moments& a, const Moments& b) {
-  return kPictureRounding * std::max(std::fabs(a.mean), std::fabs(b.mean));
+/// Relative rounding as an absolute one.
+inline double rounding_of(const Moments& a, const Moments& b, double relative) {
+  return relative * std::max(std::fabs(a.mean), std::fabs(b.mean));
 }
 
 /// A pixel that few of its samples light may show none of them, and then a variance of nothing:
 /// each has that of its surroundings at least.
-inline double passing_pixels(const Runs& a, const Runs& b) {
+inline double passing_pixels(const Runs& a, const Runs& b, double relative) {
   const std::vector<Moments> pa = tile_moments(a, 1), pb = tile_moments(b, 1);
   const uint32_t across = (a.width + kShapeTile - 1) / kShapeTile;
   const uint32_t down = (a.height + kShapeTile - 1) / kShapeTile;
@@ -113,22 +116,23 @@ inline double passing_pixels(const Runs& a, const Runs& b) {
     Moments x = pa[i], y = pb[i];
     x.variance = std::max(x.variance, around_a[t] / count[t]);
     y.variance = std::max(y.variance, around_b[t] / count[t]);
-    passing += welch_test(x, y, rounding(x, y)) >= level;
+    passing += welch_test(x, y, rounding_of(x, y, relative)) >= level;
   });
   return passing / double(pa.size());
 }
 
 }  // namespace detail
 
-/// Both of one size, at least 8 runs each, or known_picture().
-inline PictureTest compare_runs(const Runs& a, const Runs& b) {
+/// Both of one size, at least 8 runs each, or known_picture(). Relative differences up to about
+/// `rounding` are not looked for.
+inline PictureTest compare_runs(const Runs& a, const Runs& b, double rounding = kPictureRounding) {
   PictureTest out;
   const uint32_t all = std::max(a.width, a.height);
   const std::vector<Moments> wa = tile_moments(a, all), wb = tile_moments(b, all);
   double least = 1;
   for (size_t c = 0; c < wa.size(); ++c) {
     const double mean = std::max({wa[c].mean, wb[c].mean, 1e-30});
-    const double p = welch_test(wa[c], wb[c], detail::rounding(wa[c], wb[c]));
+    const double p = welch_test(wa[c], wb[c], detail::rounding_of(wa[c], wb[c], rounding));
     const double error = std::sqrt(wa[c].squared_error() + wb[c].squared_error()) / mean;
     out.relative_error = std::max(out.relative_error, error);
     if (p <= least) {
@@ -142,7 +146,7 @@ inline PictureTest compare_runs(const Runs& a, const Runs& b) {
   const uint32_t across = (a.width + kTile - 1) / kTile;
   least = 2;
   for (size_t i = 0; i < ta.size(); ++i) {
-    const double p = welch_test(ta[i], tb[i], detail::rounding(ta[i], tb[i]));
+    const double p = welch_test(ta[i], tb[i], detail::rounding_of(ta[i], tb[i], rounding));
     if (p >= least) continue;
     least = p;
     out.worst = "tile " + std::to_string(i / 3 % across) + "," + std::to_string(i / 3 / across) +
@@ -158,11 +162,11 @@ inline PictureTest compare_runs(const Runs& a, const Runs& b) {
   std::vector<double> p;
   for (size_t i = 1; i < sa.size(); i += 3) {
     const double noise = std::sqrt(sa[i].squared_error() + sb[i].squared_error());
-    const double floor = detail::rounding(sa[i], sb[i]);
+    const double floor = detail::rounding_of(sa[i], sb[i], rounding);
     if (noise > 10 * floor) p.push_back(welch_test(sa[i], sb[i], floor));
   }
   out.shape = uniformity_p_value(p);
-  out.pixels_passing = detail::passing_pixels(a, b);
+  out.pixels_passing = detail::passing_pixels(a, b, rounding);
   return out;
 }
 

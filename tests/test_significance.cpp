@@ -10,6 +10,7 @@
 #include <random>
 
 #include "picture_tests.h"
+#include "run_program.h"
 
 namespace yat {
 namespace {
@@ -203,6 +204,38 @@ TEST(PictureTests, PicturesWithoutNoiseAreTheSameToRounding) {
   const Runs a = known_picture(24, 20, 1.25f);
   EXPECT_TRUE(compare_runs(a, known_picture(24, 20, 1.25f * 1.000001f)).passes(1e-3));
   EXPECT_FALSE(compare_runs(a, known_picture(24, 20, 1.25f * 1.00005f)).passes(1e-3));
+}
+
+// ---- tools/nightly.sh --------------------------------------------------------------------------
+
+TEST(Nightly, JudgesByHowManyAreSmall) {
+  const std::filesystem::path folder = std::filesystem::path(YAT_TEST_OUTPUT_DIR) / "nightly";
+  std::filesystem::create_directories(folder);
+  const auto judge = [&](const std::vector<double>& p) {
+    std::string text;
+    for (const double x : p) text += "Suite.Test pair " + std::to_string(x) + "\n";
+    write_whole(folder / "p.txt", text);
+    return run_program(
+        {"/usr/bin/env", "bash", YAT_SOURCE_DIR "/tools/nightly.sh", "--judge", "p.txt"}, folder);
+  };
+  std::vector<double> p;
+  for (int i = 0; i < 1000; ++i) p.push_back((i + .5) / 1000);
+  const ProgramResult right = judge(p);
+  EXPECT_EQ(right.code, 0) << right.out << right.err;
+  EXPECT_NE(
+      right.out.find("10 of 1000 comparisons below 0.01, 10.0 expected at most: probability of "
+                     "as many 0.543"),
+      std::string::npos)
+      << right.out;
+  // A comparison that is biased in each of ten runs.
+  for (int i = 0; i < 10; ++i) p.push_back(1e-5);
+  const ProgramResult biased = judge(p);
+  EXPECT_EQ(biased.code, 1) << biased.out;
+  EXPECT_NE(biased.out.find("more than chance"), std::string::npos) << biased.out;
+  EXPECT_NE(biased.out.find("(more than once)"), std::string::npos) << biased.out;
+  EXPECT_NE(biased.out.find("  Suite.Test pair: "), std::string::npos) << biased.out;
+  EXPECT_EQ(judge({}).code, 1);
+  EXPECT_EQ(judge({2}).code, 1);
 }
 
 }  // namespace
