@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/vector_relational.hpp>
 #include <random>
 #include <vector>
@@ -163,6 +164,42 @@ TEST(ColourModel, ProductsFollowSpectra) {
   const double rgb =
       luminance_error(ColourMode::kRgb, products, [](const Product&, const Colour&, double) {});
   EXPECT_LT(bands, .15 * rgb) << "bands " << bands << ", rgb " << rgb;
+}
+
+/// What an image's gamma makes of a stored colour: LuxRender raises its spectrum, wavelength by
+/// wavelength. Spectra by the ten samples of Smits (1999), linear in between; the colour of the
+/// result under D65, relative to white's.
+struct Stored {
+  const char* name;
+  Colour texel, rgb;
+};
+
+TEST(ColourModel, GammaActsOnBandsAsOnSpectra) {
+  constexpr double kGamma = 2.2;
+  const std::vector<Stored> colours = {{"wood", {.93, .72, .25}, {.8648, .4686, .0309}},
+                                       {"curtain", {.5, .15, .1}, {.2020, .0151, .0040}},
+                                       {"crimson", {.8, .2, .3}, {.5622, .0271, .0664}},
+                                       {"denim", {.15, .3, .5}, {.0088, .0691, .2074}},
+                                       {"grass", {.2, .5, .2}, {.0166, .2029, .0289}},
+                                       {"gold", {.9, .7, .1}, {.8107, .4303, -.0231}},
+                                       {"skin", {.95, .8, .7}, {.8974, .6130, .4588}},
+                                       {"plum", {.4, .1, .6}, {.1311, -.0067, .2985}}};
+  const ColourModel& model = colour_model(ColourMode::kBands);
+  double on_bands = 0, on_channels = 0;
+  for (const Stored& c : colours) {
+    const Colour found =
+        to_rgb(glm::pow(to_bands(c.texel, model.reflectance), Colour(kGamma)), model.film);
+    const double expected = luminance_709(c.rgb);
+    EXPECT_NEAR(luminance_709(found), expected, .045 * expected) << c.name;
+    const double brightest = std::max({c.rgb.x, c.rgb.y, c.rgb.z});
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(found[k], c.rgb[k], .045 * brightest) << c.name << " channel " << k;
+    on_bands += std::fabs(luminance_709(found) / expected - 1);
+    const Colour decoded = glm::pow(c.texel, Colour(kGamma));
+    on_channels += std::fabs(
+        luminance_709(to_rgb(to_bands(decoded, model.reflectance), model.film)) / expected - 1);
+  }
+  EXPECT_LT(on_bands, .2 * on_channels) << on_bands << " against " << on_channels;
 }
 
 }  // namespace

@@ -66,11 +66,15 @@ TEST_F(CompileTextures, MaterialsOfOneShapeShareAProgram) {
   EXPECT_EQ(kinds(p.steps),
             (std::vector{StepKind::kMapSurface, StepKind::kImage, StepKind::kBands}));
   EXPECT_EQ(p.steps[0].rows, 1u);  // the same for both
-  ASSERT_EQ(p.steps[1].rows, 2u);
-  EXPECT_EQ(constants<ImageParameters>(p.steps[1], 0).gamma, 2.2f);
-  EXPECT_EQ(constants<ImageParameters>(p.steps[1], 1).gamma, 1.8f);
+  // Gamma acts on bands.
+  EXPECT_EQ(p.steps[1].rows, 1u);
+  EXPECT_EQ(constants<ImageParameters>(p.steps[1], 0).gamma, 1.f);
+  ASSERT_EQ(p.steps[2].rows, 2u);
+  EXPECT_EQ(p.steps[2].variant, kBandsRaised);
+  EXPECT_EQ(constants<BandsParameters>(p.steps[2], 0).gamma, 2.2f);
+  EXPECT_EQ(constants<BandsParameters>(p.steps[2], 1).gamma, 1.8f);
   EXPECT_EQ(scene.texels.images, 1u);  // one file
-  EXPECT_EQ(constants<ImageParameters>(p.steps[1], 1).width, 4u);
+  EXPECT_EQ(constants<ImageParameters>(p.steps[1], 0).width, 4u);
   // Three fields of a matte, all from the texture; the square keeps its texture coordinates.
   EXPECT_EQ(p.fields.size(), 3u);
   EXPECT_EQ(scene.bins[scene.prim_bin[0]].geometry, GeometryKind::kTriangleVertex);

@@ -72,8 +72,11 @@ TEST_P(TextureSteps, Arithmetic) {
 TEST_P(TextureSteps, BandsOfColours) {
   TextureRows rows(kRows);
   for (int c = 0; c < 3; ++c) rows.input(0, 1);
-  rows.constants<BandsParameters>([](uint32_t) { return BandsParameters<Value>{0}; });
+  rows.constants<BandsParameters>(
+      [](uint32_t r) { return BandsParameters<Value>{1.8f + .2f * float(r)}; });
   EXPECT_EQ(TextureRows::share_off(rows.run(kernels(), StepKind::kBands, 0, 3, 3), 1e-6), 0);
+  EXPECT_EQ(TextureRows::share_off(rows.run(kernels(), StepKind::kBands, kBandsRaised, 3, 3), 1e-5),
+            0);
 }
 
 TEST_P(TextureSteps, ClampKeepsWhatIsNotANumber) {

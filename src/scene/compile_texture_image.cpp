@@ -151,13 +151,19 @@ TextureValue image_texture(TextureContext& c, const ImageLook& look, TextureGrap
     return value;
   }
   value.constant = {decode(mean.x), decode(mean.y), decode(mean.z)};
-  value.node = c.graph().add<ImageParameters>(StepKind::kImage, variant, parameters, inputs,
-                                              one_channel ? 1 : 3);
   // Bands of a grey are that grey.
   const bool same =
       c.textures.colour().reflectance.red[0] == 1 && c.textures.colour().reflectance.red[1] == 0;
-  if (!one_channel && !same && !look.normal_map)
-    value.node = c.graph().add<BandsParameters>(StepKind::kBands, 0, {0u}, {{value.node, 0}}, 3);
+  const bool bands = !one_channel && !same && !look.normal_map;
+  if (bands) {  // Gamma acts on spectra, so on bands.
+    variant |= kImageLinear;
+    parameters.gamma = 1;
+  }
+  value.node = c.graph().add<ImageParameters>(StepKind::kImage, variant, parameters, inputs,
+                                              one_channel ? 1 : 3);
+  if (bands)
+    value.node = c.graph().add<BandsParameters>(StepKind::kBands, gamma == 1 ? 0 : kBandsRaised,
+                                                {float(gamma)}, {{value.node, 0}}, 3);
   return value;
 }
 

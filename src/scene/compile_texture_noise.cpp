@@ -74,7 +74,7 @@ TextureValue marble(TextureContext& c) {
   value.least = 0;
   value.most = .9;
   value.constant = {.8, .8, .82};
-  value.node = c.graph().add<BandsParameters>(StepKind::kBands, 0, {0u}, {{rgb, 0}}, 3);
+  value.node = c.graph().add<BandsParameters>(StepKind::kBands, 0, {1.f}, {{rgb, 0}}, 3);
   return value;
 }
 

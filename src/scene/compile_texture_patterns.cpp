@@ -85,7 +85,7 @@ TextureValue colour_node(TextureContext& c, uint32_t node, const glm::dvec3& mea
   value.constant = mean;
   value.least = 0;
   value.most = most;
-  value.node = c.graph().add<BandsParameters>(StepKind::kBands, 0, {0u}, {{node, 0}}, 3);
+  value.node = c.graph().add<BandsParameters>(StepKind::kBands, 0, {1.f}, {{node, 0}}, 3);
   return value;
 }
 

@@ -99,8 +99,12 @@ void run(const WeighParameters<Value>& p, StepPlace& place) {
   place.out(0, glm::dot(Vec(p.r, p.g, p.b), place.colour(0)));
 }
 
-void run(const BandsParameters<Value>&, StepPlace& place) {
-  place.out(to_bands(place.colour(0), place.basis));
+void run(const BandsParameters<Value>& p, StepPlace& place) {
+  const Vec bands = to_bands(place.colour(0), place.basis);
+  if (place.form(kBandsTraits.forms) == kBandsRaised)
+    place.out(glm::pow(glm::max(bands, Vec(0.)), Vec(double(p.gamma))));
+  else
+    place.out(bands);
 }
 
 // ---- Patterns and noise: reference_patterns.cpp ------------------------------------------------
