@@ -154,7 +154,7 @@ void compare(const char* scene, const char* reference, uint32_t spp,
 }
 
 TEST(LuxRender, CornellBox) {
-  compare("CornellBox/cornell-box.lxs", "cornell-path10-256spp.exr", 128,
+  compare("CornellBox/cornell-box.lxs", "cornell-path10-256spp.exr", 256,
           {{"back_wall", 330, 640, 110, 210},
            {"back_right", 500, 645, 230, 345},
            {"left_wall", 210, 285, 150, 400, Gamut::kOutside},

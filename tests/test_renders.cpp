@@ -99,7 +99,8 @@ TEST_P(Renders, ColoursMultiplyInBands) {
     const auto picture = [&](const std::string& description) {
       const Scene scene = compile_text(description, kernels(), mode);
       PlanOptions options;
-      options.max_depth = 2;  // no roulette, which colours would change
+      options.max_depth = 2;
+      options.roulette_depth = kNoRoulette;  // which colours would change
       return render_film(scene, make_plan(scene, kernels(), options), 0, 16).resolve();
     };
     const std::vector<float> grey = picture(text("1 1 1", "1 1 1", "1 1 1"));

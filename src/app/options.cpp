@@ -57,7 +57,7 @@ constexpr OptionText kRenderOptions[] = {
     {"--light-sampling", "mis|lights|bsdf", "mis",
      "how light is found: by asking lamps and by chance, weighted; by asking alone; by chance "
      "alone. To compare and to debug: mis is the least noisy"},
-    {"--roulette", "N|off", "3",
+    {"--roulette", "N|off", "1",
      "vertex from which on dim paths end by chance, brighter survivors making up for it; off: "
      "paths go on to --max-depth"},
     {"--texture-cache", "MB", "2048",
@@ -102,7 +102,7 @@ constexpr OptionText kInfoOptions[] = {
     {"--light-sampling", "mis|lights|bsdf", "mis",
      "how light is found: by asking lamps and by chance, weighted; by asking alone; by chance "
      "alone. To compare and to debug: mis is the least noisy"},
-    {"--roulette", "N|off", "3",
+    {"--roulette", "N|off", "1",
      "vertex from which on dim paths end by chance, brighter survivors making up for it; off: "
      "paths go on to --max-depth"},
     {"--texture-cache", "MB", "2048",

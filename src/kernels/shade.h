@@ -7,8 +7,9 @@
 //   2. depth >= max_depth: the path ends (it came here for its emission).
 //   3. light sampling (not for delta materials): a shadow ray, if it can bring anything.
 //   4. the next direction; a path of no weight ends.
-//   5. Russian roulette from roulette_depth on: survival with q = min(1, largest channel of the
-//      throughput), so that a survivor's throughput never grows above 1 and no colour is favoured.
+//   5. Russian roulette from roulette_depth on: survival with q = min(1, kRouletteChance * largest
+//      channel of the throughput), so that a survivor's throughput never grows above 1 /
+//      kRouletteChance by it, and no colour is favoured.
 //   6. the next ray, at vertex depth + 1 (or least_depth_after_scatter, if that is more).
 // The throughput may be negative throughout (pixel filter with negative lobes): weights are judged
 // before they meet it.
@@ -237,7 +238,8 @@ void shade_scattering(const ShadeInput& in, const TransportOptions& options, Sha
       if (any<A>(plays & alive)) {
         const Float<A> brightest = largest<A>(Spectrum<A>{
             xsimd::abs(throughput.r), xsimd::abs(throughput.g), xsimd::abs(throughput.b)});
-        const Float<A> chance = xsimd::select(plays, xsimd::min(brightest, one), one);
+        const Float<A> chance =
+            xsimd::select(plays, xsimd::min(Float<A>(kRouletteChance) * brightest, one), one);
         // A path without weight (chance 0) dies; a NaN lives on to be counted.
         alive = alive & !(load<A>(in.randoms.roulette, i) >= chance);
         throughput = (one / chance) * throughput;

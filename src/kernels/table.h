@@ -80,12 +80,17 @@ struct DrawKey {
 /// crossed.
 enum class Dimension : uint32_t { kFilm, kLens, kLight, kChoice, kBsdf, kRoulette, kChild, kCount };
 
+/// Russian roulette: a path goes on with the chance min(1, kRouletteChance * largest channel of its
+/// throughput), so that only paths below a third of the light that they began with play
+/// (docs/decisions.md).
+inline constexpr float kRouletteChance = 3;
+
 /// How paths go, decided once per render.
 struct TransportOptions {
   uint32_t max_depth = 16;  ///< vertex at which a path ends (lxs 4.7: 0 sees emitters only)
   uint32_t least_depth_after_scatter = 0;  ///< `direct` integrator: max_depth, so that a path goes
                                            ///< on through delta bounces only; else 0
-  uint32_t roulette_depth = 3;    ///< first vertex at which Russian roulette may end a path
+  uint32_t roulette_depth = 1;    ///< first vertex at which Russian roulette may end a path
   bool hide_environment = false;  ///< from the camera; what it lights shows it
   uint32_t seed = 0;
 };

@@ -142,8 +142,8 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
     if (vertex >= options.max_depth) break;
     if (vertex >= options.roulette_depth) {
       const double chance = std::min(
-          1.0,
-          std::max({std::fabs(throughput.x), std::fabs(throughput.y), std::fabs(throughput.z)}));
+          1.0, double(kRouletteChance) * std::max({std::fabs(throughput.x), std::fabs(throughput.y),
+                                                   std::fabs(throughput.z)}));
       if (double(random(Dimension::kRoulette).first) >= chance) break;
       throughput /= chance;
     }
