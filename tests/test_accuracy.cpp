@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "accuracy/cie_sky.h"
 #include "accuracy/form_factors.h"
 #include "accuracy/fresnel.h"
 #include "accuracy/lobes.h"
@@ -70,6 +71,68 @@ TEST(Accuracy, AlbedosOfGgxAreThoseInPrint) {
   // With roughness 1 LuxRender's lobe has G = c, whatever the direction.
   for (const double c : cosines) EXPECT_NEAR(luxrender_albedo(1, c), .25, 1e-6);
   EXPECT_NEAR(cook_torrance_albedo(.01, 1), 1, 1e-4);
+}
+
+/// Over all directions above the horizon.
+double horizontal_illuminance(const CieSky& sky) {
+  return integrate(0, kPi / 2, 8, [&](double e) {
+    return integrate(0, 2 * kPi, 16, [&](double a) {
+      const Vec d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
+      return sky.luminance(d) * d.z * std::cos(e);
+    });
+  });
+}
+
+TEST(Accuracy, SkiesOfTheCieHaveUnitIlluminanceAndTheirGradation) {
+  const Vec sun(0, -.5, std::sqrt(.75));
+  for (int type = 1; type <= 15; ++type)
+    EXPECT_NEAR(horizontal_illuminance(CieSky(type, sun)), 1, 2e-5) << type;
+  const CieSky overcast(1, sun), uniform(5, sun), clear(12, sun);
+  EXPECT_NEAR(overcast.luminance({0, 0, 1}) / overcast.luminance({1, 0, 0 + 1e-12}),
+              1 + 4 * std::exp(-.7), 1e-9);
+  EXPECT_NEAR(uniform.luminance({.6, 0, .8}), 1 / kPi, 1e-9);
+  EXPECT_GT(clear.luminance(sun), 5 * clear.luminance({0, std::sqrt(.75), .5}));
+  EXPECT_EQ(clear.luminance({0, .6, -.8}), CieSky::kGround / kPi);
+  EXPECT_THROW(CieSky(16, sun), std::invalid_argument);
+  EXPECT_THROW(CieSky(1, {0, .6, -.8}), std::invalid_argument);
+}
+
+TEST(Accuracy, APictureOfASkyIsAsFineAsItSays) {
+  const CieSky sky(12, {0, -.5, std::sqrt(.75)});
+  const double texel = kPi / 1024;
+  const auto at = [&](double azimuth, double elevation) {
+    return sky.luminance({std::cos(elevation) * std::cos(azimuth),
+                          std::cos(elevation) * std::sin(azimuth), std::sin(elevation)});
+  };
+  // Farthest from the middles of texels, a few degrees from sun and horizon.
+  for (const double elevation : {.2, .7, 1.3})
+    for (const double azimuth : {.3, 1.5, 3.7, 5.5}) {
+      double mean = 0;
+      for (const double x : {-.5, .5})
+        for (const double y : {-.5, .5}) mean += at(azimuth + x * texel, elevation + y * texel) / 4;
+      EXPECT_NEAR(mean / at(azimuth, elevation), 1, 2e-5) << elevation << " " << azimuth;
+    }
+}
+
+TEST(Accuracy, OpeningsAndBlocksAgreeWithClosedForms) {
+  const CieSky uniform(5, {0, -.5, std::sqrt(.75)});
+  const auto radiance = [&](const Vec& d) { return uniform.luminance(d); };
+  const Vec up(0, 0, 1), corner(-.3, -.2, 1), u(1, 0, 0), v(0, .5, 0);
+  EXPECT_NEAR(through_opening({0, 0, 0}, up, {corner, u, v}, {}, 4, radiance),
+              rectangle_irradiance({0, 0, 0}, up, corner, u, v) / kPi, 1e-9);
+  // Half sky and half ground, around a block too small to see; and what a block takes away from the
+  // ground below a point is what it takes from a hemisphere.
+  const Block speck{{0, 50, 0}, {1e-4, 50 + 1e-4, 1e-4}};
+  EXPECT_NEAR(upright_irradiance(uniform, {0, 0, 2}, speck), (1 + CieSky::kGround) / 2, 1e-6);
+  EXPECT_NEAR(underside_irradiance({0, 0, 2}, speck), CieSky::kGround, 1e-6);
+  const Block room{{-2, 1, 0}, {2, 5, 3}};
+  const double front =
+      rectangle_irradiance({.3, 0, 3}, {0, 0, -1}, {-2, 1, 0}, {4, 0, 0}, {0, 0, 3});
+  EXPECT_NEAR(underside_irradiance({.3, 0, 3}, room), CieSky::kGround * (1 - front / kPi), 1e-6);
+  const double seen = rectangle_irradiance({.3, 0, 1}, {0, 1, 0}, {-2, 1, 0}, {4, 0, 0}, {0, 0, 1});
+  const double sky = rectangle_irradiance({.3, 0, 1}, {0, 1, 0}, {-2, 1, 1}, {4, 0, 0}, {0, 0, 2});
+  EXPECT_NEAR(upright_irradiance(uniform, {.3, 0, 1}, room),
+              (1 + CieSky::kGround) / 2 - (sky + CieSky::kGround * seen) / kPi, 1e-5);
 }
 
 TEST(Accuracy, ADeviationIsJudgedBySigmaAndByTheStandardError) {

@@ -3,7 +3,8 @@
 //   bench_accuracy [--filter TEXT] [--full] [--list] [--json FILE] [--seed N] [--scale X] ...
 //
 // Cases: closed forms (lights, furnaces, rooms, glass), albedos of rough lobes by quadrature, and
-// the analytic cases of CIE 171:2006 with Ashdown's errata. Ends with 0 only if every case is
+// the analytic cases of CIE 171:2006 with Ashdown's errata; and Veach's plates by three estimators
+// and the scalar reference. Ends with 0 only if every case is
 // within --sigma standard errors of what is expected, at a standard error of at most --error %.
 
 #include <CLI/CLI.hpp>
@@ -12,6 +13,7 @@
 
 #include "accuracy/report.h"
 #include "base/error.h"
+#include "base/whole_file.h"
 #include "kernels/dispatch.h"
 #include "measure.h"
 
@@ -21,7 +23,7 @@ namespace {
 struct Options {
   std::vector<std::string> filters;
   bool list = false, full = false;
-  std::string json, isa;
+  std::string json, markdown, isa;
   uint32_t threads = 0;
   Effort effort;
   Limits limits;
@@ -43,6 +45,7 @@ int run(const Options& options) {
   add_lobe_cases(all, missing);
   add_cie_lamp_cases(all, missing);
   add_cie_sky_cases(all, missing);
+  add_veach_cases(all);
   for (Case& c : all)
     if ((options.full || !c.extra) && wanted(c.name, options.filters))
       cases.push_back(std::move(c));
@@ -54,6 +57,7 @@ int run(const Options& options) {
 
   const KernelTable& kernels = select_kernels(options.isa);
   ThreadPool pool(options.threads);
+  const Machine machine{kernels, pool, options.effort};
   std::printf("%s, %u threads, %u runs a case, seeds from %u\n\n", std::string(kernels.isa).c_str(),
               pool.threads(), options.effort.runs, options.effort.seed);
   print_header();
@@ -61,8 +65,9 @@ int run(const Options& options) {
   bench::Json rows = bench::Json::array();
   bool good = true;
   for (const Case& c : cases) {
-    Outcome outcome{&c, c.expected(), {}};
-    outcome.measured = measure(c, outcome.known.value, kernels, pool, options.effort);
+    if (c.prepare) c.prepare();
+    Outcome outcome{&c, c.expected(machine), {}};
+    outcome.measured = measure(c, outcome.known.value, machine);
     good = good && outcome.within(options.limits);
     print_row(outcome, options.limits);
     rows.push_back(json_row(outcome, options.limits));
@@ -75,6 +80,8 @@ int run(const Options& options) {
     std::printf("Not in yat: %s: %s.\n", m.name.c_str(), m.reason.c_str());
     left_out.push_back({{"name", m.name}, {"reason", m.reason}});
   }
+  if (!options.markdown.empty())
+    write_whole_file(options.markdown, markdown(outcomes, missing, options.limits));
   if (!options.json.empty()) {
     bench::Json report = bench::origin("bench_accuracy");
     report["isa"] = kernels.isa;
@@ -99,6 +106,7 @@ int program(int argc, char** argv) {
   app.add_flag("--list", options.list, "name the cases and end");
   app.add_flag("--full", options.full, "all points and skies of CIE 171, some hours");
   app.add_option("--json", options.json, "write the results here");
+  app.add_option("--markdown", options.markdown, "write the table here");
   app.add_option("--seed", options.effort.seed, "first seed; further runs take the following ones")
       ->check(CLI::Range(0u, 0x3fffffffu));
   app.add_option("--runs", options.effort.runs, "independent runs per case")

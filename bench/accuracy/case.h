@@ -6,8 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "base/parallel.h"
+#include "kernels/table.h"
 #include "scene/compile.h"
 #include "scene/dialect.h"
+#include "wavefront/plan.h"
 
 namespace yat::accuracy {
 
@@ -19,6 +22,25 @@ struct Probe {
   bool indirect = false;   ///< count light only that was scattered more than once
   Dialect dialect = Dialect::kLuxRender;
   EnergyCompensation compensation = EnergyCompensation::kAuto;
+  LightSampling light_sampling = LightSampling::kBoth;
+  uint32_t width = 0, height = 0;  ///< as CompileOptions has them
+  float crop[4] = {0, 1, 0, 1};
+};
+
+struct Effort {
+  uint32_t runs = 32;            ///< independent runs (seeds) that the standard error comes from
+  uint32_t seed = 0;             ///< of the first run
+  double target = 3e-4;          ///< standard error to plan for, of the expected value
+  double scale = 1;              ///< times the samples that this takes
+  uint32_t least_spp = 2048;     ///< per run: rare paths have to be among the samples at all
+  uint32_t most_spp = 1u << 20;  ///< the standard error stays larger where that is not enough
+};
+
+/// What renders.
+struct Machine {
+  const KernelTable& kernels;
+  ThreadPool& pool;
+  Effort effort;
 };
 
 /// What is expected, and how well that is known itself (0 for a formula or quadrature).
@@ -31,7 +53,7 @@ struct Case {
   std::string name;           ///< "lights.square.centre": family first
   std::string what;           ///< for people, in one line
   std::vector<Probe> probes;  ///< the computed value is the sum over them
-  std::function<Known()> expected;
+  std::function<Known(const Machine&)> expected;
   std::optional<double> published;     ///< the same number in print, to as many digits as there
   std::function<void()> prepare = {};  ///< called before the first render: makes files
   double effort = 1;   ///< standard error to plan for, times that of others: > 1 where it is dear
@@ -44,8 +66,8 @@ struct Missing {
 };
 
 /// A case whose value is a constant or a closed form that costs nothing.
-inline std::function<Known()> known(double value) {
-  return [value] { return Known{value, 0}; };
+inline std::function<Known(const Machine&)> known(double value) {
+  return [value](const Machine&) { return Known{value, 0}; };
 }
 
 // The families, in the order of the report.
@@ -55,5 +77,6 @@ void add_glass_cases(std::vector<Case>& cases);
 void add_lobe_cases(std::vector<Case>& cases, std::vector<Missing>& missing);
 void add_cie_lamp_cases(std::vector<Case>& cases, std::vector<Missing>& missing);
 void add_cie_sky_cases(std::vector<Case>& cases, std::vector<Missing>& missing);
+void add_veach_cases(std::vector<Case>& cases);
 
 }  // namespace yat::accuracy

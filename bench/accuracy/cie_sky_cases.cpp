@@ -123,7 +123,7 @@ Case sky_case(const Setting& s, const Point& at, double published) {
                                s.skies->path(s.type, s.to_north)),
                s.depth, 100 * kPi}};
   c.prepare = [s] { s.skies->make(s.type, s.to_north); };
-  c.expected = [s, p, n = at.n] {
+  c.expected = [s, p, n = at.n](const Machine&) {
     const CieSky& sky = s.skies->sky(s.type, s.to_north);
     return Known{100 * through_opening(p, n, s.opening, s.steps(p), s.panels,
                                        [&](const Vec& d) { return s.radiance(sky, p, d); }),

@@ -65,7 +65,7 @@ void add_glass_cases(std::vector<Case>& cases) {
              "Shape \"plane\"\n" + matte(0) + translated({0, 0, -1}, "Shape \"plane\"\n") +
              constant_sky(1) + "WorldEnd\n",
          1000}},
-       [] { return Known{mean_fresnel(kIndex), 0}; },
+       [](const Machine&) { return Known{mean_fresnel(kIndex), 0}; },
        .091777959});
   // An absorbing volume of index 1 in front of light: exp(-sigma d / cos). A ray begins up to 32
   // roundings of the coordinates behind the surface that it leaves, so its way is that much short.
@@ -82,7 +82,7 @@ void add_glass_cases(std::vector<Case>& cases) {
                          slab_shape(thickness)) +
                "WorldEnd\n",
            1000}},
-         [=] {
+         [=](const Machine&) {
            const double value = std::exp(-sigma * thickness / c);
            return Known{value, value * sigma * kHalfWidth * 32 * 0x1p-24 / c};
          },

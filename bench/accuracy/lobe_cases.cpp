@@ -29,7 +29,7 @@ void add_lobe_cases(std::vector<Case>& cases, std::vector<Missing>& missing) {
       cases.push_back({fmt::format("lobes.luxrender.{}.{}", alpha, c),
                        fmt::format("LuxRender's lobe, F = 1, roughness {}, cosine {}", alpha, c),
                        {{furnace(lux, c), 1}},
-                       [=] { return Known{luxrender_albedo(alpha, c), 0}; },
+                       [=](const Machine&) { return Known{luxrender_albedo(alpha, c), 0}; },
                        {}});
     }
   for (const double m : {.1, .3, .5, 1.})
@@ -44,7 +44,7 @@ void add_lobe_cases(std::vector<Case>& cases, std::vector<Missing>& missing) {
       cases.push_back({fmt::format("lobes.cook_torrance.{}.{}", m, c),
                        fmt::format("Cook and Torrance's lobe, F = 1, slope {}, cosine {}", m, c),
                        {probe},
-                       [=] { return Known{cook_torrance_albedo(m, c), 0}; },
+                       [=](const Machine&) { return Known{cook_torrance_albedo(m, c), 0}; },
                        {}});
     }
   missing.push_back({"lobes.ggx",

@@ -58,6 +58,21 @@ void print_summary(const std::vector<Outcome>& outcomes, const Limits& limits) {
       100 * (1 - std::pow(1 - one, double(outcomes.size()))), 100 * worst_error);
 }
 
+std::string markdown(const std::vector<Outcome>& outcomes, const std::vector<Missing>& missing,
+                     const Limits& limits) {
+  std::string text =
+      "| case | computed | expected | s.e. | sigma | samples | s | in print |\n"
+      "|---|---|---|---|---|---|---|---|\n";
+  for (const Outcome& o : outcomes)
+    text +=
+        fmt::format("| {} | {:.6g} | {:.6g} | {:.4f} % | {:.2f}{} | {:.3g} | {:.2f} | {} |\n",
+                    o.c->name, o.measured.value, o.known.value, 100 * o.relative_error(), o.sigma(),
+                    o.within(limits) ? "" : " ***", double(o.measured.samples), o.measured.seconds,
+                    o.c->published ? fmt::format("{:.6g}", *o.c->published) : "");
+  for (const Missing& m : missing) text += fmt::format("\nNot in yat: {}: {}.\n", m.name, m.reason);
+  return text;
+}
+
 nlohmann::ordered_json json_row(const Outcome& o, const Limits& limits) {
   nlohmann::ordered_json row = {{"name", o.c->name},
                                 {"what", o.c->what},

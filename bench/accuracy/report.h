@@ -33,6 +33,9 @@ void print_row(const Outcome& outcome, const Limits& limits);
 /// Counts, the largest deviation, and what chance would give: p is the probability that the largest
 /// of so many deviations is no smaller.
 void print_summary(const std::vector<Outcome>& outcomes, const Limits& limits);
+/// The table in Markdown, and what is missing below it.
+std::string markdown(const std::vector<Outcome>& outcomes, const std::vector<Missing>& missing,
+                     const Limits& limits);
 nlohmann::ordered_json json_row(const Outcome& outcome, const Limits& limits);
 
 }  // namespace yat::accuracy

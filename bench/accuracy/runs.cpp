@@ -6,6 +6,7 @@
 #include "film/features.h"
 #include "measure.h"
 #include "scene/parse.h"
+#include "wavefront/reference.h"
 #include "wavefront/render.h"
 
 namespace yat::accuracy {
@@ -17,16 +18,20 @@ struct Prepared {
   Scene scene;
 };
 
-Prepared prepare(const Probe& probe, const KernelTable& kernels, ThreadPool& pool) {
+Prepared prepare(const Probe& probe, const Machine& machine) {
   Diagnostics diagnostics([](Severity severity, std::string_view line) {
     if (severity != Severity::kNote) throw Error(std::string(line));
   });
   const Description description =
       parse_scene(probe.scene, "case.lxs", ".", diagnostics, false, probe.dialect);
   CompileOptions options;
-  options.block_width = kernels.lanes;
+  options.block_width = machine.kernels.lanes;
   options.compensation = probe.compensation;
-  return {probe, compile_scene(description, options, pool, diagnostics)};
+  options.width = probe.width;
+  options.height = probe.height;
+  std::copy(probe.crop, probe.crop + 4, options.crop);
+  options.crop_given = true;
+  return {probe, compile_scene(description, options, machine.pool, diagnostics)};
 }
 
 /// Mean over pixels and channels of the radiance per sample.
@@ -40,12 +45,17 @@ double mean(const FilmPixel* sums, const FilmPixel* counts, size_t pixels) {
   return sum / 3 / double(samples);
 }
 
-double render_mean(const Prepared& p, const KernelTable& kernels, ThreadPool& pool, uint32_t seed,
-                   uint32_t spp, uint64_t& samples) {
-  PlanOptions plan_options;
-  plan_options.max_depth = p.probe.max_depth;
-  plan_options.seed = seed;
-  const Plan plan = make_plan(p.scene, kernels, plan_options);
+Plan plan_for(const Prepared& p, const Machine& machine, uint32_t seed) {
+  PlanOptions options;
+  options.max_depth = p.probe.max_depth;
+  options.light_sampling = p.probe.light_sampling;
+  options.seed = seed;
+  return make_plan(p.scene, machine.kernels, options);
+}
+
+double render_mean(const Prepared& p, const Machine& machine, uint32_t seed, uint32_t spp,
+                   uint64_t& samples) {
+  const Plan plan = plan_for(p, machine, seed);
   const uint32_t width = p.scene.film.crop_width(), height = p.scene.film.crop_height();
   const size_t pixels = size_t(width) * height;
   Film film(width, height);
@@ -53,7 +63,7 @@ double render_mean(const Prepared& p, const KernelTable& kernels, ThreadPool& po
   RenderOptions options;
   options.end_sample = spp;
   if (p.probe.indirect) options.features = &features;
-  const RenderResult result = render(p.scene, plan, options, pool, film);
+  const RenderResult result = render(p.scene, plan, options, machine.pool, film);
   if (film.total_samples() != uint64_t(pixels) * spp)
     throw Error("samples were dropped: their light is not finite or negative");
   samples += result.stats.paths;
@@ -62,56 +72,98 @@ double render_mean(const Prepared& p, const KernelTable& kernels, ThreadPool& po
   return mean(sums, film.data(), pixels);
 }
 
-struct Estimate {
-  double mean = 0, error = 0;
-};
+/// One run's value of so many samples per pixel.
+using Run = std::function<double(uint32_t seed, uint32_t spp)>;
 
-Estimate run(const std::vector<Prepared>& probes, const KernelTable& kernels, ThreadPool& pool,
-             uint32_t first_seed, uint32_t runs, uint32_t spp, uint64_t& samples) {
+Known mean_of_runs(const Run& run, uint32_t first_seed, uint32_t runs, uint32_t spp) {
   std::vector<double> values;
-  for (uint32_t i = 0; i < runs; ++i) {
-    double value = 0;
-    for (const Prepared& p : probes)
-      value += p.probe.factor * render_mean(p, kernels, pool, first_seed + i, spp, samples);
-    values.push_back(value);
-  }
+  for (uint32_t i = 0; i < runs; ++i) values.push_back(run(first_seed + i, spp));
   double sum = 0, squares = 0;
   for (const double v : values) sum += v;
   for (const double v : values) squares += (v - sum / runs) * (v - sum / runs);
   return {sum / runs, std::sqrt(squares / (runs - 1.) / runs)};
 }
 
-}  // namespace
-
-Measured measure(const Case& c, double expected, const KernelTable& kernels, ThreadPool& pool,
-                 const Effort& effort) {
-  const double begin = bench::process_seconds();
-  if (c.prepare) c.prepare();
-  std::vector<Prepared> probes;
-  for (const Probe& probe : c.probes) probes.push_back(prepare(probe, kernels, pool));
-
-  // The error falls at least as 1 / sqrt(samples): a pilot that is an eighth of what this asks for
-  // is near enough, and a quarter is added for what the pilot does not know.
-  uint64_t pilot_samples = 0;
+/// Samples per pixel of each of the runs for a standard error of `target`. The error falls at least
+/// as 1 / sqrt(samples): a pilot that is an eighth of what this asks for is near enough, and a
+/// quarter is added for what the pilot does not know.
+uint32_t plan_samples(const Run& run, uint32_t pilot_seed, double target, const Effort& effort) {
   double needed = 0;
   for (uint32_t pilot = 32;; pilot *= 8) {
-    const Estimate e =
-        run(probes, kernels, pool, effort.seed + 0x40000000u, 16, pilot, pilot_samples);
-    const double ratio = e.error / (c.effort * effort.target * std::fabs(expected));
+    const double ratio = mean_of_runs(run, pilot_seed, 16, pilot).error / target;
     needed = 1.25 * effort.scale * pilot * ratio * ratio * 16 / effort.runs;
     // Of a value that is 0, every sample has to be: there is nothing to plan.
     if (!(needed > 8. * pilot) || pilot >= effort.most_spp / 8) break;
   }
   const double least = effort.scale * effort.least_spp;
   needed = std::isfinite(needed) ? std::max(needed, least) : least;
+  needed = std::min(needed, double(effort.most_spp));
+  return 1u << uint32_t(std::clamp(std::ceil(std::log2(needed)), 2., 30.));
+}
+
+// Seeds of pilots and of what measured values are compared with; --seed is below.
+constexpr uint32_t kPilotSeed = 0x40000000u, kOtherSeed = 0x80000000u;
+
+Known run_other(const Run& run, double target, const Effort& effort) {
+  const uint32_t seed = kOtherSeed + effort.seed;
+  return mean_of_runs(run, seed, effort.runs, plan_samples(run, seed + kPilotSeed, target, effort));
+}
+
+}  // namespace
+
+Measured measure(const Case& c, double expected, const Machine& machine) {
+  const double begin = bench::process_seconds();
+  const Effort& effort = machine.effort;
+  std::vector<Prepared> probes;
+  for (const Probe& probe : c.probes) probes.push_back(prepare(probe, machine));
   Measured m;
-  m.spp = 1u << uint32_t(
-              std::clamp(std::ceil(std::log2(std::min(needed, double(effort.most_spp)))), 2., 30.));
-  const Estimate e = run(probes, kernels, pool, effort.seed, effort.runs, m.spp, m.samples);
-  m.value = e.mean;
-  m.error = e.error;
+  const Run run = [&](uint32_t seed, uint32_t spp) {
+    double value = 0;
+    for (const Prepared& p : probes)
+      value += p.probe.factor * render_mean(p, machine, seed, spp, m.samples);
+    return value;
+  };
+  m.spp = plan_samples(run, effort.seed + kPilotSeed,
+                       c.effort * effort.target * std::fabs(expected), effort);
+  m.samples = 0;
+  const Known found = mean_of_runs(run, effort.seed, effort.runs, m.spp);
+  m.value = found.value;
+  m.error = found.error;
   m.seconds = bench::process_seconds() - begin;
   return m;
+}
+
+Known by_render(const Probe& probe, double target, const Machine& machine) {
+  const Prepared p = prepare(probe, machine);
+  uint64_t samples = 0;
+  const Run run = [&](uint32_t seed, uint32_t spp) {
+    return probe.factor * render_mean(p, machine, seed, spp, samples);
+  };
+  return run_other(run, target, machine.effort);
+}
+
+Known by_reference(const Probe& probe, double target, const Machine& machine) {
+  const Prepared p = prepare(probe, machine);
+  const uint32_t width = p.scene.film.crop_width(), height = p.scene.film.crop_height();
+  const Run run = [&](uint32_t seed, uint32_t spp) {
+    const Plan plan = plan_for(p, machine, seed);
+    // A sum per row of the picture, so that the value does not depend on threads.
+    std::vector<double> rows(height);
+    machine.pool.for_each(height, [&](uint32_t y, uint32_t) {
+      for (uint32_t x = 0; x < width; ++x)
+        for (uint32_t sample = 0; sample < spp; ++sample) {
+          const glm::dvec3 rgb = reference_sample(p.scene, plan, p.scene.film.crop_x0 + x,
+                                                  p.scene.film.crop_y0 + y, sample);
+          rows[y] += (rgb.x + rgb.y + rgb.z) / 3;
+        }
+    });
+    double sum = 0;
+    for (const double row : rows) sum += row;
+    return probe.factor * sum / (double(width) * height * spp);
+  };
+  Effort effort = machine.effort;
+  effort.least_spp = 16;  // ten to a hundred times as slow as the kernels
+  return run_other(run, target, effort);
 }
 
 }  // namespace yat::accuracy

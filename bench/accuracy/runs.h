@@ -4,19 +4,8 @@
 #include <cstdint>
 
 #include "accuracy/case.h"
-#include "base/parallel.h"
-#include "kernels/table.h"
 
 namespace yat::accuracy {
-
-struct Effort {
-  uint32_t runs = 32;            ///< independent runs (seeds) that the standard error comes from
-  uint32_t seed = 0;             ///< of the first run
-  double target = 3e-4;          ///< standard error to plan for, of the expected value
-  double scale = 1;              ///< times the samples that this takes
-  uint32_t least_spp = 2048;     ///< per run: rare paths have to be among the samples at all
-  uint32_t most_spp = 1u << 20;  ///< the standard error stays larger where that is not enough
-};
 
 struct Measured {
   double value = 0;
@@ -29,7 +18,12 @@ struct Measured {
 /// Takes the mean of `runs` renders with seeds of their own, of 2^k samples per pixel each. How
 /// many that is says a pilot with other seeds, which does not count: a stop by what has been seen
 /// would be biased. Throws Error where a scene is not understood to the last word.
-Measured measure(const Case& c, double expected, const KernelTable& kernels, ThreadPool& pool,
-                 const Effort& effort);
+Measured measure(const Case& c, double expected, const Machine& machine);
+
+/// The same value by plain code: the scalar reference in double precision (wavefront/reference.h),
+/// with seeds of its own.
+Known by_reference(const Probe& probe, double target, const Machine& machine);
+/// The same value by another estimator, with seeds of its own.
+Known by_render(const Probe& probe, double target, const Machine& machine);
 
 }  // namespace yat::accuracy
