@@ -119,6 +119,8 @@ TEST(Options, MistakesNameTheOptionAndTheWayOut) {
   EXPECT_EQ(usage_error({"render", "a.lxs", "--noise-target", "1e-2", "--samples-range", "0,4"}),
             "--noise-target finds out which samples it takes, so they are not those of a "
             "--samples-range: leave one of them out");
+  EXPECT_EQ(usage_error({"render", "a.lxs", "--adaptive", "on"}),
+            "--adaptive says how --noise-target takes samples: give one");
   EXPECT_EQ(usage_error({"render", "a.lxs", "--noise-target", "0"}),
             "--noise-target 0: no picture is without error; give a relMSE above 0");
   EXPECT_EQ(usage_error({"render", "a.lxs", "--noise-target", "1e-2", "--spp", "1"}),

@@ -5,6 +5,7 @@
 #include "app/noise_passes.h"
 #include "metrics/metrics.h"
 #include "render_scenes.h"
+#include "wavefront/allocation.h"
 
 namespace yat {
 namespace {
@@ -17,7 +18,8 @@ struct Rendered {
   RenderTotals totals;
 };
 Rendered render_room(double target, uint32_t seed, uint32_t threads, uint32_t most_samples,
-                     SamplerKind sampler = SamplerKind::kSobol) {
+                     SamplerKind sampler = SamplerKind::kSobol, Adaptive adaptive = Adaptive::kOff,
+                     FeatureSet features = 0) {
   const KernelTable& kernels = select_kernels();
   const Scene scene = compile_text(everything_text(kWidth, kHeight), kernels);
   PlanOptions plan_options;
@@ -32,7 +34,9 @@ Rendered render_room(double target, uint32_t seed, uint32_t threads, uint32_t mo
   PassLimits limits;
   limits.samples = {0, most_samples};
   limits.noise_target = target;
+  limits.adaptive = adaptive;
   Rendered r;
+  r.film = FilmParts(kWidth, kHeight, features, 2);
   r.totals = render_to_noise({scene, plan, pool, progress, stop}, limits, r.film);
   return r;
 }
@@ -100,15 +104,70 @@ TEST(NoisePasses, TheBoundOnSamplesHolds) {
 }
 
 TEST(NoisePasses, SameBitsForAnyNumberOfThreads) {
-  for (const SamplerKind sampler : {SamplerKind::kSobol, SamplerKind::kMultiJittered}) {
-    const Rendered one = render_room(2e-2, 5, 1, 1 << 12, sampler);
-    const Rendered three = render_room(2e-2, 5, 3, 1 << 12, sampler);
-    EXPECT_TRUE(one.totals.noise_reached());
-    for (size_t half = 0; half < 2; ++half)
-      EXPECT_TRUE(same_bits(one.film[half].film, three.film[half].film));
-    EXPECT_EQ(one.totals.noise->rel_mse, three.totals.noise->rel_mse);
-    EXPECT_EQ(one.totals.noise->rel_mse_se, three.totals.noise->rel_mse_se);
+  for (const SamplerKind sampler : {SamplerKind::kSobol, SamplerKind::kMultiJittered})
+    for (const Adaptive adaptive : {Adaptive::kOff, Adaptive::kOn}) {
+      const Rendered one = render_room(2e-2, 5, 1, 1 << 12, sampler, adaptive);
+      const Rendered three = render_room(2e-2, 5, 3, 1 << 12, sampler, adaptive);
+      EXPECT_TRUE(one.totals.noise_reached());
+      EXPECT_EQ(one.totals.adaptive, adaptive == Adaptive::kOn);
+      for (size_t half = 0; half < 2; ++half)
+        EXPECT_TRUE(same_bits(one.film[half].film, three.film[half].film));
+      EXPECT_EQ(one.totals.noise->rel_mse, three.totals.noise->rel_mse);
+      EXPECT_EQ(one.totals.noise->rel_mse_se, three.totals.noise->rel_mse_se);
+    }
+}
+
+TEST(NoisePasses, AdaptiveSamplesFollowTheNoiseAndKeepTheBound) {
+  const FeatureSet features = feature_bit(Feature::kDirect) | feature_bit(Feature::kIndirect);
+  const Rendered r = render_room(1e-9, 3, 2, 128, SamplerKind::kSobol, Adaptive::kOn, features);
+  EXPECT_TRUE(r.totals.adaptive);
+  EXPECT_LE(r.film.total_samples(), 128u * kWidth * kHeight);
+  EXPECT_GE(r.film.total_samples(), 110u * kWidth * kHeight);
+  uint64_t least = ~uint64_t(0), most = 0;
+  for (uint32_t y = 0; y < kHeight; ++y)
+    for (uint32_t x = 0; x < kWidth; ++x)
+      for (size_t half = 0; half < 2; ++half) {
+        const FilmPixel& pixel = r.film[half].film.at(x, y);
+        EXPECT_EQ(pixel.samples, r.film[half].film.at(x / 8 * 8, y / 8 * 8).samples);
+        EXPECT_EQ(pixel.samples, nice_count(double(pixel.samples)));
+        least = std::min(least, pixel.samples);
+        most = std::max(most, pixel.samples);
+      }
+  EXPECT_GE(least, 8u);
+  EXPECT_GE(most, 2 * least);
+  // Both parts of the light have the picture's weights.
+  const std::vector<float> picture = r.film.resolve();
+  const std::vector<PictureLayer> layers = r.film.resolve_features();
+  ASSERT_EQ(layers.size(), 2u);
+  for (size_t i = 0; i < picture.size(); ++i)
+    EXPECT_NEAR(layers[0].values[i] + layers[1].values[i], picture[i],
+                1e-5f * std::max(1.f, picture[i]));
+}
+
+TEST(NoisePasses, AdaptivePicturesHaveTheRightMean) {
+  const KernelTable& kernels = select_kernels();
+  const Scene scene = compile_text(everything_text(kWidth, kHeight), kernels);
+  const auto mean_of = [](const std::vector<float>& rgb) {
+    double sum = 0;
+    for (const float c : rgb) sum += double(c);
+    return sum / double(rgb.size());
+  };
+  PlanOptions options;
+  options.max_depth = 6;
+  options.sampler = SamplerKind::kIndependent;
+  std::vector<double> uniform, adaptive;
+  for (uint32_t seed = 100; seed < 116; ++seed) {
+    options.seed = seed;
+    uniform.push_back(
+        mean_of(render_film(scene, make_plan(scene, kernels, options), 0, 256).resolve()));
   }
+  for (uint32_t seed = 1; seed <= 40; ++seed)
+    adaptive.push_back(mean_of(
+        render_room(1e-9, seed, 1, 64, SamplerKind::kIndependent, Adaptive::kOn).film.resolve()));
+  const Estimate u = estimate(uniform), a = estimate(adaptive);
+  const double error = std::hypot(u.error, a.error);
+  EXPECT_LT(error, .005 * u.mean);
+  EXPECT_LT(std::abs(a.mean - u.mean), 3.5 * error) << a.mean << " against " << u.mean;
 }
 
 }  // namespace

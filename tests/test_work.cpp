@@ -46,6 +46,44 @@ TEST(WorkList, EveryPathOnceWhateverTheCut) {
       }
 }
 
+TEST(WorkList, AMapGivesEveryBlockItsOwnSamples) {
+  const FilmSettings film = window(3, 40, 5, 22);
+  SampleMap map(film);
+  ASSERT_EQ(map.columns, 5u);
+  ASSERT_EQ(map.rows, 3u);
+  uint64_t all = 0;
+  for (uint32_t i = 0; i < 15; ++i) map.blocks[i] = {10 + i % 3, 10 + i % 3 + i % 4};
+  for (uint32_t y = 5; y < 22; ++y)
+    for (uint32_t x = 3; x < 40; ++x) all += ((y - 5) / 8 * 5 + (x - 3) / 8) % 4;
+  for (const uint32_t tile : {0u, 1u, 20u, 64u})
+    for (const uint32_t workers : {1u, 7u})
+      for (const uint32_t take : {1u, 13u, 5000u}) {
+        WorkList list(film, map, tile, workers);
+        EXPECT_FALSE(list.shares_pixels());
+        std::map<std::pair<uint32_t, uint32_t>, int> seen;
+        std::vector<uint32_t> pixel(take), sample(take);
+        while (const WorkUnit* unit = list.claim()) {
+          WorkCursor cursor;
+          cursor.start(*unit);
+          uint64_t paths = 0;
+          while (!cursor.empty()) {
+            const uint32_t n = cursor.take(take, pixel.data(), sample.data());
+            ASSERT_GT(n, 0u);
+            paths += n;
+            for (uint32_t i = 0; i < n; ++i) ++seen[{pixel[i], sample[i]}];
+          }
+          ASSERT_EQ(paths, unit->paths());
+        }
+        ASSERT_EQ(seen.size(), all);
+        for (const auto& [path, times] : seen) {
+          ASSERT_EQ(times, 1);
+          const uint32_t block = ((path.first >> 16) - 5) / 8 * 5 + ((path.first & 0xffff) - 3) / 8;
+          ASSERT_GE(path.second, map.blocks[block].first);
+          ASSERT_LT(path.second, map.blocks[block].end);
+        }
+      }
+}
+
 TEST(WorkList, SmallPicturesKeepEveryWorkerBusy) {
   // One pixel can be shared by ranges of samples only.
   const WorkList pixel(window(0, 1, 0, 1), 0, 1000, 0, 4);

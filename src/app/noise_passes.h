@@ -30,12 +30,19 @@ namespace yat {
 /// Index of B's first sample: 2^29, or the beginning of a set of a stratified sampler before it.
 uint32_t second_half(const Plan& plan);
 
-/// Samples of each half after the next round, when it has n: 4, 6, 8, 12, 16, 24 and so on. Rounds
-/// end at the powers of two that suit the sobol sampler and half way between.
+/// The least number of samples of each half after the next round, when it has n: 4, 6, 8, 12, 16,
+/// 24 and so on. Rounds end at the powers of two that suit the sobol sampler and half way between.
 uint32_t next_half_count(uint32_t n);
 
-/// Renders until limits.noise_target is reached, limits.samples.end / 2 samples are in each half,
-/// the time is up or it is stopped. halves: two, empty.
+/// Renders until limits.noise_target is reached, limits.samples.end samples per pixel are in the
+/// picture, the time is up or it is stopped. halves: two, empty; their `weigh` is set.
+///
+/// Rounds are alike for all pixels, until an estimate says that at most 8 times as many samples are
+/// needed. If it is also 1.5 times as many or more, the samples so far are the pilot, by which
+/// blocks of 8 x 8 pixels get their weights, once (wavefront/allocation.h). With Adaptive::kAuto
+/// they are used if they promise to save a third of the samples or more. Rounds after it multiply
+/// the samples of all blocks by one number, and so, like the end, this is one decision for the
+/// whole picture.
 RenderTotals render_to_noise(const PassContext& context, const PassLimits& limits,
                              FilmParts& halves);
 

@@ -32,6 +32,8 @@ constexpr OptionText kRenderOptions[] = {
      "stop rendering after this time; what comes first of this and --spp counts"},
     {"--noise-target", "X", "none",
      "stop when relMSE is below X, by the picture's own estimate; --spp and --time stay bounds"},
+    {"--adaptive", "auto|on|off", "auto",
+     "with --noise-target: more samples where the picture is noisy; auto: if that pays"},
     {"--threads", "N", "one per processor", "worker threads; the picture does not depend on them"},
     {"--integrator", "path|direct", "the scene's",
      "path: all light; direct: direct light, mirrors and glass"},
@@ -150,6 +152,8 @@ constexpr std::array<std::pair<std::string_view, InstanceMode>, 3> kInstanceMode
     {{"auto", InstanceMode::kAuto},
      {"copy", InstanceMode::kCopy},
      {"share", InstanceMode::kShare}}};
+constexpr std::array<std::pair<std::string_view, Adaptive>, 3> kAdaptives = {
+    {{"auto", Adaptive::kAuto}, {"on", Adaptive::kOn}, {"off", Adaptive::kOff}}};
 constexpr std::array<std::pair<std::string_view, EnergyCompensation>, 3> kCompensations = {
     {{"auto", EnergyCompensation::kAuto},
      {"on", EnergyCompensation::kOn},
@@ -202,9 +206,10 @@ std::string_view name_of(T wanted, const std::array<std::pair<std::string_view, 
 
 /// Text of every option as given; read into Arguments once all are known.
 struct Given {
-  std::string spp, samples_range, time, noise_target, threads, integrator, max_depth, sampler,
-      sample_set, compat, colour, seed, resolution, crop, instances, light_choice, light_sampling,
-      roulette, texture_cache, compensation, tree, tone_map, exposure, aov, progress;
+  std::string spp, samples_range, time, noise_target, adaptive, threads, integrator, max_depth,
+      sampler, sample_set, compat, colour, seed, resolution, crop, instances, light_choice,
+      light_sampling, roulette, texture_cache, compensation, tree, tone_map, exposure, aov,
+      progress;
   bool verbose = false, quiet = false;
 };
 
@@ -262,6 +267,7 @@ void add_render(Adder& add, Arguments& arguments, Given& given) {
   add("--samples-range", given.samples_range);
   add("--time", given.time);
   add("--noise-target", given.noise_target);
+  add("--adaptive", given.adaptive);
   add("--colour", given.colour);
   add("--energy-compensation", given.compensation);
   add("--seed", given.seed);
@@ -343,6 +349,11 @@ void read_given(const Given& given, Arguments& to) {
     if (to.samples_per_pixel == 1u)
       throw UsageError(
           "--noise-target needs 2 samples per pixel to see the error: give --spp 2 or more");
+  }
+  if (!given.adaptive.empty()) {
+    if (!to.noise_target)
+      throw UsageError("--adaptive says how --noise-target takes samples: give one");
+    to.adaptive = by_name("--adaptive", given.adaptive, kAdaptives);
   }
   if (!given.threads.empty())
     to.threads = number<uint32_t>("--threads", given.threads, given.threads, 1, 4096);

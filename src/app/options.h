@@ -41,6 +41,9 @@ std::string option_table(std::span<const OptionText> options);
 enum class ProgressKind { kAuto, kBar, kPlain, kJson, kSilent };
 enum class Verbosity { kQuiet, kNormal, kVerbose };
 
+/// Whether blocks of pixels get samples by their noise; kAuto: where that pays.
+enum class Adaptive { kAuto, kOn, kOff };
+
 /// Half-open range of sample indices of every pixel.
 struct SampleRange {
   uint32_t first = 0, end = 0;
@@ -52,9 +55,10 @@ struct Arguments {
   std::vector<std::string> outputs;
   std::optional<uint32_t> samples_per_pixel;
   std::optional<SampleRange> samples_range;
-  std::optional<double> time_limit;    ///< of rendering [s]
-  std::optional<double> noise_target;  ///< relMSE at which to stop
-  uint32_t threads = 0;                ///< 0: one per processor
+  std::optional<double> time_limit;     ///< of rendering [s]
+  std::optional<double> noise_target;   ///< relMSE at which to stop
+  Adaptive adaptive = Adaptive::kAuto;  ///< with a noise target
+  uint32_t threads = 0;                 ///< 0: one per processor
   std::optional<Integrator> integrator;
   std::optional<uint32_t> max_depth;
   std::optional<SamplerKind> sampler;

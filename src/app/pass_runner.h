@@ -28,6 +28,7 @@ struct RenderTotals {
   uint32_t passes = 0;
   bool timed_out = false;
   double noise_target = 0;             ///< relMSE; 0: none
+  bool adaptive = false;               ///< blocks of pixels got samples by their noise
   std::optional<NoiseEstimate> noise;  ///< of the picture, where a target was given
 
   bool noise_reached() const { return noise && noise->high() <= noise_target; }

@@ -26,6 +26,7 @@ PassLimits pass_limits(const Arguments& arguments, const FilmSettings& film) {
   const double halt_time = from_scene && film.halt_time > 0 ? film.halt_time : 0;
   limits.time_limit = arguments.time_limit.value_or(halt_time);
   limits.noise_target = arguments.noise_target.value_or(0);
+  limits.adaptive = arguments.adaptive;
   if (arguments.samples_per_pixel) {
     limits.samples.end = *arguments.samples_per_pixel;
   } else if (halt_spp) {

@@ -12,9 +12,10 @@ namespace yat {
 /// Which samples of every pixel to take and when to stop.
 struct PassLimits {
   SampleRange samples{0, 64};
-  bool unlimited = false;   ///< `samples.end` is only the largest index that there is
-  double time_limit = 0;    ///< [s]; 0: none
-  double noise_target = 0;  ///< relMSE at which to stop; 0: none
+  bool unlimited = false;              ///< `samples.end` is only the largest index that there is
+  double time_limit = 0;               ///< [s]; 0: none
+  Adaptive adaptive = Adaptive::kOff;  ///< with a noise target
+  double noise_target = 0;             ///< relMSE at which to stop; 0: none
 };
 
 /// Limits from the command line, else from the scene, else 64 samples. With a noise target

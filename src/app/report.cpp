@@ -99,9 +99,10 @@ std::string noise_line(const RenderTotals& totals) {
   if (!totals.noise)
     return fmt::format("  error   not known: both halves of the picture need a sample\n");
   return fmt::format(
-      "  error   relMSE {:.3g} (95 %: {:.3g} to {:.3g}), epsilon {:.3g}: target {:g} {}\n",
+      "  error   relMSE {:.3g} (95 %: {:.3g} to {:.3g}), epsilon {:.3g}: target {:g} {}{}\n",
       totals.noise->rel_mse, totals.noise->low(), totals.noise->high(), totals.noise->epsilon,
-      totals.noise_target, totals.noise_reached() ? "reached" : "not reached");
+      totals.noise_target, totals.noise_reached() ? "reached" : "not reached",
+      totals.adaptive ? ", adaptive" : "");
 }
 
 }  // namespace

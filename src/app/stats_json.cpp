@@ -115,7 +115,8 @@ std::string stats_json(const RenderReport& report) {
                        {"relmse", noise->rel_mse},
                        {"relmse_interval", {noise->low(), noise->high()}},
                        {"epsilon", noise->epsilon},
-                       {"mse", noise->mse}};
+                       {"mse", noise->mse},
+                       {"adaptive", report.totals.adaptive}};
   record["rays"] = {
       {"camera", stats.camera_rays}, {"bounce", stats.bounce_rays}, {"shadow", stats.shadow_rays}};
   record["lanes"] = lanes_json(stats);

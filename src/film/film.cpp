@@ -40,7 +40,7 @@ Fixed to_fixed(float x) noexcept {
 }
 
 double from_fixed(Fixed x) noexcept {
-  return std::ldexp(double(x), -kFractionBits);
+  return double(x) * 0x1p-64;  // exact: a power of two, and nothing is that small
 }
 
 bool FilmPixel::add(float sample_r, float sample_g, float sample_b) noexcept {

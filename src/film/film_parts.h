@@ -26,6 +26,7 @@ class FilmParts {
   uint32_t width() const { return parts_[0].film.width(); }
   uint32_t height() const { return parts_[0].film.height(); }
 
+  FeatureSet features() const { return parts_[0].features ? parts_[0].features->set() : 0; }
   uint64_t total_samples() const;
   size_t bytes() const;
   /// Of two halves; see estimate_noise().

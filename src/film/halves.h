@@ -65,4 +65,9 @@ std::vector<float> resolve_halves(const Film& a, const Film& b, Weigh weigh);
 /// std::invalid_argument when the sizes differ.
 NoiseEstimate estimate_noise(const Film& a, const Film& b, Weigh weigh, ThreadPool& pool);
 
+/// Relative variance of the picture (the terms of relMSE) per block of edge x edge pixels, row by
+/// row: means over the block's pixels that have samples in both halves, 0 if there is none.
+std::vector<double> block_noise(const Film& a, const Film& b, Weigh weigh, uint32_t edge,
+                                ThreadPool& pool);
+
 }  // namespace yat

@@ -26,7 +26,9 @@ struct Shared {
         plan(the_plan),
         options(the_options),
         film(the_film),
-        work(scene.film, options.first_sample, options.end_sample, options.tile_size, workers),
+        work(options.samples ? WorkList(scene.film, *options.samples, options.tile_size, workers)
+                             : WorkList(scene.film, options.first_sample, options.end_sample,
+                                        options.tile_size, workers)),
         batch_rows(padded_rows(options.batch_rows ? options.batch_rows : kBatchRows)) {
     if (options.tile_done) units_left.resize(work.units().size() / work.splits(), work.splits());
   }

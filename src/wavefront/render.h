@@ -12,15 +12,17 @@
 #include "film/features.h"
 #include "film/film.h"
 #include "wavefront/plan.h"
+#include "wavefront/work.h"
 
 namespace yat {
 
 struct RenderOptions {
   uint32_t first_sample = 0, end_sample = 16;  ///< sample indices [first, end) of every pixel
-  uint32_t batch_rows = 0;          ///< paths in flight per worker; 0: the measured default
-  uint32_t tile_size = 0;           ///< pixels along a tile's edge; 0: the measured default
-  bool trace = false;               ///< record TraceSpans
-  FeatureFilm* features = nullptr;  ///< feature pictures to add to, of the film's size, or none
+  const SampleMap* samples = nullptr;  ///< instead of these, a range for each block of pixels
+  uint32_t batch_rows = 0;             ///< paths in flight per worker; 0: the measured default
+  uint32_t tile_size = 0;              ///< pixels along a tile's edge; 0: the measured default
+  bool trace = false;                  ///< record TraceSpans
+  FeatureFilm* features = nullptr;     ///< feature pictures to add to, of the film's size, or none
   const std::atomic<bool>* stop =
       nullptr;  ///< set: start no new path, finish those under way, return
   /// Called from workers (one at a time) after each tile with the paths done so far.

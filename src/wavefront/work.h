@@ -15,12 +15,38 @@
 
 namespace yat {
 
+/// Pixels along the edge of a block.
+inline constexpr uint32_t kWorkBlock = 8;
+
+/// Samples of every block of the crop window, instead of one range for all. Blocks are counted from
+/// the window's corner, row by row; those at the right and lower edge may have fewer pixels.
+struct SampleMap {
+  struct Range {
+    uint32_t first = 0, end = 0;
+  };
+  /// One empty range per block.
+  explicit SampleMap(const FilmSettings& film)
+      : x0(film.crop_x0),
+        y0(film.crop_y0),
+        columns((film.crop_width() + kWorkBlock - 1) / kWorkBlock),
+        rows((film.crop_height() + kWorkBlock - 1) / kWorkBlock),
+        blocks(size_t(columns) * rows) {}
+  const Range& at_pixel(uint32_t x, uint32_t y) const {
+    return blocks[size_t((y - y0) / kWorkBlock) * columns + (x - x0) / kWorkBlock];
+  }
+
+  uint32_t x0, y0;
+  uint32_t columns, rows;
+  std::vector<Range> blocks;
+};
+
 /// Pixels of the full image, ends exclusive.
 struct WorkUnit {
   uint32_t x0, y0, x1, y1;
   uint32_t first_sample, end_sample;
-  uint32_t tile;  ///< its number among the tiles
-  uint64_t paths() const { return uint64_t(x1 - x0) * (y1 - y0) * (end_sample - first_sample); }
+  uint32_t tile;                   ///< its number among the tiles
+  const SampleMap* map = nullptr;  ///< says the samples, if there is one
+  uint64_t paths() const;
 };
 
 /// The units of a render, and which of them are taken.
@@ -30,6 +56,9 @@ class WorkList {
   /// there are fewer tiles than `workers` can share evenly, each tile into ranges of samples.
   WorkList(const FilmSettings& film, uint32_t first_sample, uint32_t end_sample, uint32_t tile_size,
            uint32_t workers);
+  /// The same with the samples of `map`, which must outlive the list. Tiles are whole blocks and
+  /// not split.
+  WorkList(const FilmSettings& film, const SampleMap& map, uint32_t tile_size, uint32_t workers);
 
   /// The next unit, or nullptr. From any thread.
   const WorkUnit* claim() {
@@ -58,11 +87,15 @@ class WorkCursor {
   uint32_t take(uint32_t wanted, uint32_t* pixel, uint32_t* sample);
 
  private:
+  struct Block {
+    uint32_t pixel;  ///< its first, in pixels_
+    uint32_t end_pixel;
+    uint32_t sample, end_sample;  ///< `sample`: the next
+  };
   std::vector<uint32_t> pixels_;  ///< of the tile, block by block
-  std::vector<uint32_t> blocks_;  ///< first pixel of each block
+  std::vector<Block> blocks_;
   size_t block_ = 0;
   uint32_t place_ = 0;  ///< in the block
-  uint32_t sample_ = 0, first_sample_ = 0, end_sample_ = 0;
 };
 
 }  // namespace yat
