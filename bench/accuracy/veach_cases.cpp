@@ -52,7 +52,7 @@ void add_veach_cases(std::vector<Case>& cases) {
     // The other estimator is hopeless there: 0.1 % would take hours.
     Probe alone = probe;
     alone.light_sampling = plate < 2 ? LightSampling::kBsdf : LightSampling::kLights;
-    add(plate < 2 ? "bsdf" : "lights",
+    add(plate < 2 ? "chance" : "light_samples",
         plate < 2 ? "the same: lamps met by chance alone, against MIS"
                   : "the same: light samples alone, against MIS",
         alone, [=](const Machine& machine) {
