@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "chi2.h"
-#include "kernel_columns.h"
-#include "kernels/rng_scalar.h"
+#include "light_batch.h"
 
 namespace yat {
 namespace {
@@ -14,96 +13,6 @@ constexpr double kPi = 3.141592653589793;
 
 class Lights : public PerIsa {};
 YAT_INSTANTIATE_PER_ISA(Lights);
-
-/// A scene of lights only.
-struct LightScene {
-  RowTable<LightRow> rows;
-  RowTable<LightChoice> choice;
-  SceneView view;
-
-  /// All lights equally likely, unless probabilities are set in the rows and `alias` is given.
-  explicit LightScene(std::vector<LightRow<Value>> lights,
-                      std::vector<LightChoice<Value>> alias = {}) {
-    const auto n = uint32_t(lights.size());
-    rows.resize(n);
-    choice.resize(n);
-    for (uint32_t i = 0; i < n; ++i) {
-      if (alias.empty()) lights[i].probability = 1.f / float(n);
-      rows.set(i, lights[i]);
-      choice.set(i, alias.empty() ? LightChoice<Value>{1, i} : alias[i]);
-      view.lights.kinds |= 1u << lights[i].kind;
-    }
-    view.lights.rows = rows.view();
-    view.lights.choice = choice.view();
-  }
-};
-
-void put(const glm::dvec3& v, float& x, float& y, float& z) {
-  x = float(v.x), y = float(v.y), z = float(v.z);
-}
-
-LightRow<Value> triangle_light(const glm::dvec3& p0, const glm::dvec3& p1, const glm::dvec3& p2) {
-  LightRow<Value> row{};
-  put(p0, row.a_x, row.a_y, row.a_z);
-  put(p1 - p0, row.b_x, row.b_y, row.b_z);
-  put(p2 - p0, row.c_x, row.c_y, row.c_z);
-  row.extra = float(glm::length(glm::cross(p1 - p0, p2 - p0)) / 2);
-  row.radiance_r = 1, row.radiance_g = .5f, row.radiance_b = 2;
-  row.probability = 1;
-  row.kind = uint32_t(LightKind::kTriangle);
-  return row;
-}
-LightRow<Value> sphere_light(const glm::dvec3& center, double radius, bool inwards = false) {
-  LightRow<Value> row{};
-  put(center, row.a_x, row.a_y, row.a_z);
-  row.b_x = inwards;
-  row.extra = float(radius);
-  row.radiance_r = 1, row.radiance_g = .5f, row.radiance_b = 2;
-  row.probability = 1;
-  row.kind = uint32_t(LightKind::kSphere);
-  return row;
-}
-LightRow<Value> far_light(LightKind kind, const glm::dvec3& a, double cos = 1) {
-  LightRow<Value> row{};
-  put(a, row.a_x, row.a_y, row.a_z);
-  row.extra = float(cos);
-  row.radiance_r = 1, row.radiance_g = .5f, row.radiance_b = 2;
-  row.probability = 1;
-  row.kind = uint32_t(kind);
-  // LuxRender's fall-off: 1 / distance^2.
-  if (kind == LightKind::kPoint) row.b_x = 1;
-  return row;
-}
-
-/// Inputs and outputs of one sample_lights call.
-struct Batch {
-  uint32_t n;
-  GuardedTable<Surface> surfaces;
-  GuardedTable<Randoms> randoms;
-  GuardedTable<LightSample> samples;
-  explicit Batch(uint32_t rows) : n(rows), surfaces(n), randoms(n), samples(n) {}
-  void set(uint32_t i, const glm::dvec3& pos, float u, float v, float choice) {
-    Surface<Value> s{};
-    put(pos, s.pos_x, s.pos_y, s.pos_z);
-    surfaces.set(i, s);
-    Randoms<Value> r{};
-    r.light_u = u, r.light_v = v, r.light_choice = choice;
-    randoms.set(i, r);
-  }
-  void run(const KernelTable& k, const SceneView& scene, uint32_t kind) {
-    k.sample_lights[kind](scene, surfaces.view(), randoms.view(), samples.columns(), n);
-  }
-  glm::dvec3 pos(uint32_t i) const {
-    const Surface<Value> s = surfaces.row(i);
-    return {s.pos_x, s.pos_y, s.pos_z};
-  }
-};
-glm::dvec3 wi_of(const LightSample<Value>& s) {
-  return {s.wi_x, s.wi_y, s.wi_z};
-}
-glm::dvec3 to_of(const LightSample<Value>& s) {
-  return {s.to_x, s.to_y, s.to_z};
-}
 
 /// What a light sample must be, given the point of the light that it went to.
 struct Expected {
@@ -117,6 +26,8 @@ Expected expected_at(const LightRow<Value>& row, const glm::dvec3& p, const glm:
   const glm::dvec3 a(row.a_x, row.a_y, row.a_z);
   switch (LightKind(row.kind)) {
     case LightKind::kTriangle:
+      if (const SeenTriangle seen(row, p); seen.sampled)
+        return {1 / seen.solid_angle(), seen.solid_angle()};
       return cos > 0 ? Expected{d2 / (cos * r), cos * r / d2} : Expected{0, 0};
     case LightKind::kSphere: {
       const double far2 = glm::dot(a - p, a - p);
@@ -224,37 +135,6 @@ TEST_P(Lights, EveryKindIsWhatDoublePrecisionSaysAtEveryCount) {
 }
 
 // ---- Distributions ---------------------------------------------------------------------------
-
-constexpr uint32_t kMany = 1 << 20;
-
-/// kMany samples from one place with independent numbers.
-Batch many_samples(const KernelTable& k, const LightScene& scene, uint32_t kind,
-                   const glm::dvec3& pos, uint32_t seed) {
-  Batch b(kMany);
-  for (uint32_t i = 0; i < kMany; ++i) {
-    const auto [u, v] = random_pair(SamplerKind::kIndependent, seed, Dimension::kLight, 0, i, 0);
-    const auto choice = random_pair(SamplerKind::kIndependent, seed, Dimension::kChoice, 0, i, 0);
-    b.set(i, pos, u, v, choice.first);
-  }
-  b.run(k, scene.view, kind);
-  return b;
-}
-
-TEST_P(Lights, TrianglePointsAreUniform) {
-  const glm::dvec3 p0(1, 0, 2), p1(0, 1, 2), p2(-1, -1, 3), e1 = p1 - p0, e2 = p2 - p0;
-  const LightScene scene({triangle_light(p0, p1, p2)});
-  const Batch b = many_samples(kernels(), scene, 0, {0, 0, 0}, 1);
-  SquareHistogram histogram(40);
-  const glm::dvec3 n = glm::cross(e1, e2);
-  for (uint32_t i = 0; i < kMany; ++i) {
-    const glm::dvec3 d = to_of(b.samples.row(i)) - p0;
-    const double b1 = glm::dot(glm::cross(d, e2), n) / glm::dot(n, n);
-    const double b2 = glm::dot(glm::cross(e1, d), n) / glm::dot(n, n), s = b1 + b2;
-    EXPECT_TRUE(b1 >= -1e-5 && b2 >= -1e-5 && s <= 1 + 1e-5);
-    histogram.add(s * s, b2 / s);
-  }
-  EXPECT_GE(histogram.p_value(), sidak_level(3));
-}
 
 TEST_P(Lights, SphereConeIsUniformInSolidAngleNearAndFar) {
   for (const double distance : {1.001, 1.5, 10., 1e4}) {

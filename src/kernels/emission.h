@@ -36,7 +36,9 @@ void add_emission(const SceneView& scene, const Surface<ConstColumn>& surfaces,
     const Vec3<A> receiver = pos + distance * wo;
     const SeenLight<A> seen{distance, cos};
     const Mask<A> sphere = mask_of<A>(row.kind == UInt<A>(uint32_t(LightKind::kSphere)));
-    Float<A> sampled = TriangleLight<A>::pdf(row, receiver, seen);
+    // Camera rays and those off mirrors keep all they see, whatever the density.
+    Float<A> sampled =
+        TriangleLight<A>::pdf(row, shining & (scattered != Float<A>(0.f)), receiver, seen);
     if (any<A>(sphere & shining))
       sampled = select<A>(sphere, SphereLight<A>::pdf(row, receiver, seen), sampled);
     const Mask<A> shape = shining & mask_of<A>(row.kind == UInt<A>(uint32_t(LightKind::kShape)));

@@ -22,13 +22,49 @@ Vec axis_a(const LightRow<Value>& row) {
   return {row.a_x, row.a_y, row.a_z};
 }
 
-/// A triangle light, uniform over its area (Heitz 2019 for the map).
+/// A triangle as a receiver sees it: unit vectors to its corners. Van Oosterom, Strackee 1983.
+struct SphericalTriangle {
+  Vec v0, v1, v2;
+  double volume, opening;  ///< tan(solid angle / 2) is their quotient
+  bool sampled;            ///< by solid angle; else by area: lights/triangle.h decides alike
+
+  SphericalTriangle(const LightRow<Value>& row, const Vec& receiver) {
+    const Vec e1(row.b_x, row.b_y, row.b_z), e2(row.c_x, row.c_y, row.c_z);
+    const Vec way = axis_a(row) - receiver;
+    v0 = glm::normalize(way);
+    v1 = glm::normalize(way + e1);
+    v2 = glm::normalize(way + e2);
+    volume = -glm::dot(v0, glm::cross(e1 / glm::length(way + e1), e2 / glm::length(way + e2)));
+    opening = 1 + glm::dot(v0, v1) + glm::dot(v0, v2) + glm::dot(v1, v2);
+    const double size = std::max(glm::length(e1), glm::length(e2));
+    sampled = glm::length(way) <= 2 * size && volume > 0 && volume + opening / 32 > 1. / 64;
+  }
+  double solid_angle() const { return 2 * std::atan2(volume, opening); }
+  /// Arvo 1995 with the vectors of Peters 2021.
+  Vec direction(double u, double v) const {
+    const double half = u * solid_angle() / 2;
+    const Vec middle = v0 * (volume * std::cos(half) - glm::dot(v0 + v1, v2) * std::sin(half)) +
+                       v2 * ((1 + glm::dot(v0, v1)) * std::sin(half));
+    const Vec q = 2 * glm::dot(v0, middle) / glm::dot(middle, middle) * middle - v0;
+    const double z = 1 - v * (1 - glm::dot(q, v1));
+    const Vec across = glm::normalize(q - glm::dot(q, v1) * v1);
+    return z * v1 + std::sqrt(std::fmax(1 - z * z, 0)) * across;
+  }
+};
+
+/// A triangle light, uniform over its solid angle, or its area (Heitz 2019 for the map).
 void pick_triangle(const LightRow<Value>& row, const Vec& receiver, double u, double v,
                    LightPoint& pick, double& inverse_pdf) {
   const Vec e1(row.b_x, row.b_y, row.b_z), e2(row.c_x, row.c_y, row.c_z);
+  const Vec normal = glm::normalize(glm::cross(e1, e2));
+  const SphericalTriangle seen(row, receiver);
   const double b1 = v > u ? u / 2 : u - v / 2, b2 = v > u ? v - u / 2 : v / 2;
-  const Vec point = axis_a(row) + b1 * e1 + b2 * e2;
-  const Vec normal = glm::normalize(glm::cross(e1, e2)), way = point - receiver;
+  Vec point = axis_a(row) + b1 * e1 + b2 * e2;
+  if (seen.sampled) {
+    const Vec w = seen.direction(u, v);
+    point = receiver + glm::dot(axis_a(row) - receiver, normal) / glm::dot(w, normal) * w;
+  }
+  const Vec way = point - receiver;
   const double squared = glm::dot(way, way);
   pick.wi = glm::normalize(way);
   const double cos = -glm::dot(normal, pick.wi);
@@ -39,7 +75,7 @@ void pick_triangle(const LightRow<Value>& row, const Vec& receiver, double u, do
       point + normal * (0x1p-22 * (glm::length(axis_a(row)) + glm::length(e1) + glm::length(e2)) +
                         double(row.further));
   if (cos > 0 && squared > 0) {
-    inverse_pdf = double(row.extra) * cos / squared;
+    inverse_pdf = seen.sampled ? seen.solid_angle() : double(row.extra) * cos / squared;
     pick.pdf = 1 / inverse_pdf;
   }
 }
@@ -261,6 +297,10 @@ double light_pdf(const Scene& scene, const Vec& receiver, const Point& at, doubl
   const double squared = glm::dot(way, way);
   const double probability = nominal_chance(scene, receiver, at.light);
   double area = double(row.extra);
+  if (LightKind(row.kind) == LightKind::kTriangle) {
+    const SphericalTriangle seen(row, receiver);
+    if (seen.sampled) return probability / seen.solid_angle();
+  }
   if (LightKind(row.kind) == LightKind::kShape)
     area = inverse_density(shape_of(scene, row), at.position);
   if (LightKind(row.kind) == LightKind::kSphere) {

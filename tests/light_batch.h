@@ -1,0 +1,138 @@
+#pragma once
+// Lights as rows, and calls of sample_lights, for tests of light kernels.
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "kernel_columns.h"
+#include "kernels/rng_scalar.h"
+
+namespace yat {
+
+/// A scene of lights only.
+struct LightScene {
+  RowTable<LightRow> rows;
+  RowTable<LightChoice> choice;
+  SceneView view;
+
+  /// All lights equally likely, unless probabilities are set in the rows and `alias` is given.
+  explicit LightScene(std::vector<LightRow<Value>> lights,
+                      std::vector<LightChoice<Value>> alias = {}) {
+    const auto n = uint32_t(lights.size());
+    rows.resize(n);
+    choice.resize(n);
+    for (uint32_t i = 0; i < n; ++i) {
+      if (alias.empty()) lights[i].probability = 1.f / float(n);
+      rows.set(i, lights[i]);
+      choice.set(i, alias.empty() ? LightChoice<Value>{1, i} : alias[i]);
+      view.lights.kinds |= 1u << lights[i].kind;
+    }
+    view.lights.rows = rows.view();
+    view.lights.choice = choice.view();
+  }
+};
+
+inline void put(const glm::dvec3& v, float& x, float& y, float& z) {
+  x = float(v.x), y = float(v.y), z = float(v.z);
+}
+
+inline LightRow<Value> triangle_light(const glm::dvec3& p0, const glm::dvec3& p1,
+                                      const glm::dvec3& p2) {
+  LightRow<Value> row{};
+  put(p0, row.a_x, row.a_y, row.a_z);
+  put(p1 - p0, row.b_x, row.b_y, row.b_z);
+  put(p2 - p0, row.c_x, row.c_y, row.c_z);
+  row.extra = float(glm::length(glm::cross(p1 - p0, p2 - p0)) / 2);
+  row.radiance_r = 1, row.radiance_g = .5f, row.radiance_b = 2;
+  row.probability = 1;
+  row.kind = uint32_t(LightKind::kTriangle);
+  return row;
+}
+inline LightRow<Value> sphere_light(const glm::dvec3& center, double radius, bool inwards = false) {
+  LightRow<Value> row{};
+  put(center, row.a_x, row.a_y, row.a_z);
+  row.b_x = inwards;
+  row.extra = float(radius);
+  row.radiance_r = 1, row.radiance_g = .5f, row.radiance_b = 2;
+  row.probability = 1;
+  row.kind = uint32_t(LightKind::kSphere);
+  return row;
+}
+inline LightRow<Value> far_light(LightKind kind, const glm::dvec3& a, double cos = 1) {
+  LightRow<Value> row{};
+  put(a, row.a_x, row.a_y, row.a_z);
+  row.extra = float(cos);
+  row.radiance_r = 1, row.radiance_g = .5f, row.radiance_b = 2;
+  row.probability = 1;
+  row.kind = uint32_t(kind);
+  // LuxRender's fall-off: 1 / distance^2.
+  if (kind == LightKind::kPoint) row.b_x = 1;
+  return row;
+}
+
+/// Inputs and outputs of one sample_lights call.
+struct Batch {
+  uint32_t n;
+  GuardedTable<Surface> surfaces;
+  GuardedTable<Randoms> randoms;
+  GuardedTable<LightSample> samples;
+  explicit Batch(uint32_t rows) : n(rows), surfaces(n), randoms(n), samples(n) {}
+  void set(uint32_t i, const glm::dvec3& pos, float u, float v, float choice) {
+    Surface<Value> s{};
+    put(pos, s.pos_x, s.pos_y, s.pos_z);
+    surfaces.set(i, s);
+    Randoms<Value> r{};
+    r.light_u = u, r.light_v = v, r.light_choice = choice;
+    randoms.set(i, r);
+  }
+  void run(const KernelTable& k, const SceneView& scene, uint32_t kind) {
+    k.sample_lights[kind](scene, surfaces.view(), randoms.view(), samples.columns(), n);
+  }
+  glm::dvec3 pos(uint32_t i) const {
+    const Surface<Value> s = surfaces.row(i);
+    return {s.pos_x, s.pos_y, s.pos_z};
+  }
+};
+inline glm::dvec3 wi_of(const LightSample<Value>& s) {
+  return {s.wi_x, s.wi_y, s.wi_z};
+}
+inline glm::dvec3 to_of(const LightSample<Value>& s) {
+  return {s.to_x, s.to_y, s.to_z};
+}
+
+inline constexpr uint32_t kMany = 1 << 20;
+
+/// kMany samples from one place with independent numbers.
+inline Batch many_samples(const KernelTable& k, const LightScene& scene, uint32_t kind,
+                          const glm::dvec3& pos, uint32_t seed) {
+  Batch b(kMany);
+  for (uint32_t i = 0; i < kMany; ++i) {
+    const auto [u, v] = random_pair(SamplerKind::kIndependent, seed, Dimension::kLight, 0, i, 0);
+    const auto choice = random_pair(SamplerKind::kIndependent, seed, Dimension::kChoice, 0, i, 0);
+    b.set(i, pos, u, v, choice.first);
+  }
+  b.run(k, scene.view, kind);
+  return b;
+}
+
+/// A triangle light from a place: Van Oosterom, Strackee 1983, in double precision.
+struct SeenTriangle {
+  glm::dvec3 v0, v1, v2;   ///< unit, to the corners
+  double volume, opening;  ///< tan(solid angle / 2) is their quotient
+  bool sampled;  ///< by solid angle, by the rule of kernels/lights/triangle.h; else by area
+  SeenTriangle(const LightRow<Value>& row, const glm::dvec3& from) {
+    const glm::dvec3 e1(row.b_x, row.b_y, row.b_z), e2(row.c_x, row.c_y, row.c_z);
+    const glm::dvec3 way = glm::dvec3(row.a_x, row.a_y, row.a_z) - from;
+    const double d0 = glm::length(way), d1 = glm::length(way + e1), d2 = glm::length(way + e2);
+    v0 = way / d0, v1 = (way + e1) / d1, v2 = (way + e2) / d2;
+    volume = -glm::dot(v0, glm::cross(e1 / d1, e2 / d2));
+    opening = 1 + glm::dot(v0, v1) + glm::dot(v0, v2) + glm::dot(v1, v2);
+    sampled = d0 <= 2 * std::max(glm::length(e1), glm::length(e2)) && volume > 0 &&
+              volume + opening / 32 > 1. / 64;
+  }
+  double solid_angle() const { return 2 * std::atan2(volume, opening); }
+};
+
+}  // namespace yat
