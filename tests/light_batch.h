@@ -90,6 +90,12 @@ struct Batch {
   void run(const KernelTable& k, const SceneView& scene, uint32_t kind) {
     k.sample_lights[kind](scene, surfaces.view(), randoms.view(), samples.columns(), n);
   }
+  /// Without a number for the choice of the light.
+  void run_by_place(const KernelTable& k, const SceneView& scene, uint32_t kind) {
+    Randoms<ConstColumn> numbers = randoms.view();
+    numbers.light_choice = nullptr;
+    k.sample_lights[kind](scene, surfaces.view(), numbers, samples.columns(), n);
+  }
   glm::dvec3 pos(uint32_t i) const {
     const Surface<Value> s = surfaces.row(i);
     return {s.pos_x, s.pos_y, s.pos_z};

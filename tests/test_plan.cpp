@@ -39,6 +39,26 @@ TEST(Plan, SkipsWhatTheSceneDoesNotHold) {
     EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
 }
 
+TEST(Plan, FewLightsShareTheNumberOfTheirPlace) {
+  const KernelTable& kernels = select_kernels();
+  const auto plan_of = [&](const char* second) {
+    const Scene scene = compile_text(
+        pinhole_room(std::string("LightSource \"point\" \"color L\" [1 1 1]\n") + second), kernels);
+    const Plan plan = make_plan(scene, kernels, {});
+    EXPECT_EQ(plan.bins[1].draw_choice, scene.lights.size() > 1 && !plan.light_by_place);
+    if (plan.light_by_place) {
+      EXPECT_NE(
+          describe_plan(plan, scene).find("draw choice: the number of the place chooses the light"),
+          std::string::npos);
+    }
+    return plan.light_by_place;
+  };
+  EXPECT_FALSE(plan_of("")) << "there is nothing to choose";
+  EXPECT_TRUE(plan_of("LightSource \"point\" \"color L\" [.1 .1 .1]\n"));
+  EXPECT_FALSE(plan_of("LightSource \"point\" \"color L\" [.001 .001 .001]\n"))
+      << "what a rare light leaves of a number is too coarse";
+}
+
 TEST(Plan, RunsWhatTheSceneHolds) {
   const KernelTable& kernels = select_kernels();
   const Scene scene = compile_text(everything_text(8, 8), kernels);

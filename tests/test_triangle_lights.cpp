@@ -1,5 +1,5 @@
 // Triangle lights by solid angle and by area: uniform in either, right in sum from anywhere, and
-// finite where floats end.
+// finite where floats end. And lights that share a number with the place on them.
 
 #include <glm/vec2.hpp>
 
@@ -196,6 +196,41 @@ TEST_P(TriangleLights, AnyReceiverGetsFiniteNumbers) {
         EXPECT_TRUE(std::min(at.x, at.y) > -1e-4 && at.x + at.y < 1 + 1e-4) << where();
       }
     }
+}
+
+// u spreads evenly over all lights: light k gets its share of the interval, stretched.
+TEST_P(TriangleLights, OneNumberChoosesLightAndPlace) {
+  std::vector<LightRow<Value>> lights;
+  const double share[] = {.5, .125, .375};
+  for (int k = 0; k < 3; ++k) {
+    const double x = 10 * k;
+    lights.push_back(triangle_light({x, 0, 90}, {x, 1, 90}, {x + 1, 0, 90}));
+    lights.back().probability = float(share[k]);
+  }
+  // Intervals of a third: light 0; light 1 up to 3/8 of it, then light 2; light 2 up to 1/2, then
+  // 0.
+  const LightScene scene(lights, {{1, 0}, {.375f, 2}, {.5f, 0}});
+  constexpr uint32_t n = 48000;
+  Batch b(n);
+  for (uint32_t i = 0; i < n; ++i)
+    b.set(i, {0, 0, 0}, (float(i) + .5f) / float(n), float(i % 97) / 97, std::nanf(""));
+  b.run_by_place(kernels(), scene.view, 0);
+  EXPECT_TRUE(b.samples.untouched());
+  uint32_t seen[3] = {};
+  for (uint32_t i = 0; i < n; ++i) {
+    const double place = (i + .5) / n * 3, rest = place - std::floor(place);
+    const int interval = int(place);
+    const double below = interval == 0 ? 1 : interval == 1 ? .375 : .5;
+    const int light = rest < below ? interval : interval == 1 ? 2 : 0;
+    const double u = rest < below ? rest / below : (rest - below) / (1 - below);
+    const double v = (i % 97) / 97.;
+    const LightSample<Value> s = b.samples.row(i);
+    const glm::dvec2 at = weights_at(lights[size_t(light)], to_of(s));
+    ++seen[light];
+    EXPECT_NEAR(at.x, v > u ? u / 2 : u - v / 2, 2e-5) << i;
+    EXPECT_NEAR(at.y, v > u ? v - u / 2 : v / 2, 2e-5) << i;
+  }
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(seen[k], share[k] * n, 2);
 }
 
 }  // namespace

@@ -6,16 +6,25 @@
 
 namespace yat::YAT_ISA {
 
+/// A row of an alias table, and what is left of the number that chose it, in [0, 1) again.
+template <class A>
+struct AliasChoice {
+  UInt<A> row;
+  Float<A> left;
+};
+
 /// Alias method (Walker 1977, Vose 1991): one number chooses the interval and, by where in it the
 /// number lies, the interval's own row or the other one.
 template <class A>
-YAT_INLINE UInt<A> choose_light(const Rows<LightChoice>& choice, const Float<A>& u) {
+YAT_INLINE AliasChoice<A> choose_light(const Rows<LightChoice>& choice, const Float<A>& u) {
   const Float<A> place = u * Float<A>(float(choice.count));
   const Int<A> interval = xsimd::to_int(place);
   const UInt<A> row =
       xsimd::min(xsimd::bitwise_cast<uint32_t>(interval), UInt<A>(choice.count - 1));
   const LightChoice<Lanes<A>::template Of> entry = gather<A>(choice, row);
-  return select<A>(place - xsimd::to_float(interval) < entry.threshold, row, entry.other);
+  const Float<A> rest = place - xsimd::to_float(interval);
+  const Mask<A> own = rest < entry.threshold;
+  return {select<A>(own, row, entry.other), stretch_number<A>(rest, entry.threshold, own)};
 }
 
 /// A light chosen for a surface. Both chances are to be multiplied by LightRow::probability.
@@ -34,7 +43,7 @@ YAT_INLINE ChosenLight<A> choose_light_by_tree(const LightView& lights, const Li
   ChosenLight<A> out{choice.row, choice.chance, choice.nominal};
   if (any<A>(choice.far)) {
     const UInt<A> far = UInt<A>(lights.tree.first_far) +
-                        choose_light<A>(lights.choice, only<A>(choice.far, choice.left));
+                        choose_light<A>(lights.choice, only<A>(choice.far, choice.left)).row;
     out.row = select<A>(choice.far, far, out.row);
   }
   return out;

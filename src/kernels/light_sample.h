@@ -117,6 +117,7 @@ YAT_INLINE LitPoint<A> lit_point(const LightTreeView& tree, const Surface<ConstC
 }
 
 /// kKernel: a kind of light, kPlainLights or kAnyLights. all_around matters to the tree alone.
+/// Without numbers for the choice (and without a tree), those of the place choose (Plan).
 /// kKeepRows: the row of each light goes to `light`, which is not looked at otherwise.
 template <class A, uint32_t kKernel, bool kByTree, bool kKeepRows = false>
 YAT_INLINE void sample_chosen_lights(const SceneView& scene, const Surface<ConstColumn>& surfaces,
@@ -125,6 +126,7 @@ YAT_INLINE void sample_chosen_lights(const SceneView& scene, const Surface<Const
                                      [[maybe_unused]] uint32_t* light = nullptr) noexcept {
   const LightView& lights = scene.lights;
   const bool one_light = !kByTree && lights.rows.count == 1;
+  const bool own_number = randoms.light_choice != nullptr;
   const Float<A> zero(0.f), one(1.f);
   LightRowW<A> row;
   if (one_light) row = broadcast<A>(lights.rows, 0);
@@ -132,6 +134,7 @@ YAT_INLINE void sample_chosen_lights(const SceneView& scene, const Surface<Const
     const Mask<A> active = tail_mask<A>(i, n);
     const Vec3<A> receiver{load<A>(surfaces.pos_x, i), load<A>(surfaces.pos_y, i),
                            load<A>(surfaces.pos_z, i)};
+    Float<A> u = load<A>(randoms.light_u, i), v = load<A>(randoms.light_v, i);
     // Padding may hold anything: as an index, only a number that was drawn is safe.
     ChosenLight<A> chosen;
     if constexpr (kByTree) {
@@ -140,16 +143,17 @@ YAT_INLINE void sample_chosen_lights(const SceneView& scene, const Surface<Const
           lights, lit_point<A>(lights.tree, surfaces, i, receiver, all_around), active, choice);
       row = gather<A>(lights.rows, chosen.row);
     } else if (!one_light) {
-      const Float<A> choice = only<A>(active, load<A>(randoms.light_choice, i));
-      chosen.row = choose_light<A>(lights.choice, choice);
+      const Float<A> choice = only<A>(active, own_number ? load<A>(randoms.light_choice, i) : u);
+      const AliasChoice<A> by_power = choose_light<A>(lights.choice, choice);
+      chosen.row = by_power.row;
       row = gather<A>(lights.rows, chosen.row);
+      if (!own_number) u = by_power.left;
     } else if constexpr (kKeepRows) {
       chosen.row = UInt<A>(0u);
     }
     if constexpr (kKeepRows) store<A>(chosen.row, light, i);
     const Float<A> far =
         Float<A>(kFarSizes) * xsimd::max(Float<A>(scene.radius), largest_magnitude(receiver));
-    Float<A> u = load<A>(randoms.light_u, i), v = load<A>(randoms.light_v, i);
     if constexpr (kKernel == kAnyLights) {
       // Tables are searched with these.
       u = only<A>(active, u);

@@ -152,6 +152,17 @@ bool has_unmet_lights(const Scene& scene) {
   return false;
 }
 
+/// Whether one number can choose a light and a place on it, so that a pixel's samples spread evenly
+/// over all lights together: what a rare light leaves of its 24 bits must be a fine enough grid.
+bool lights_share_number(const Scene& scene) {
+  constexpr float kRarest = 1.f / 64;
+  if (scene.light_tree.nodes.size() > 0 || scene.lights.size() < 2) return false;
+  for (uint32_t i = 0; i < scene.lights.size(); ++i)
+    if (scene.lights.row(i).probability > 0 && scene.lights.row(i).probability < kRarest)
+      return false;
+  return true;
+}
+
 /// The plan of a material, with those of what it is made of in plan.children.
 ShadePlan plan_material(const Scene& scene, const MaterialForm& form, bool roulette, uint32_t level,
                         Plan& plan) {
@@ -174,7 +185,7 @@ ShadePlan plan_material(const Scene& scene, const MaterialForm& form, bool roule
   }
   out.veil = traits.veil;
   out.sample_lights = plan.lights && !traits.delta && !traits.see_through;
-  out.draw_choice = out.sample_lights && scene.lights.size() > 1;
+  out.draw_choice = out.sample_lights && scene.lights.size() > 1 && !plan.light_by_place;
   out.all_around = traits.all_around;
   out.draw_lobe = traits.needs_lobe;
   out.draw_direction = traits.needs_direction;
@@ -228,6 +239,7 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
                           ? uint32_t(std::countr_zero(scene.light_kinds))
                           : kPlainLights;
   plan.light_tree = scene.light_tree.nodes.size() > 0;
+  plan.light_by_place = lights_share_number(scene);
   if (plan.light_tree && plan.light_kernel < kPlainLights &&
       plan.light_kernel != uint32_t(LightKind::kTriangle))
     plan.light_kernel = kPlainLights;
@@ -405,8 +417,11 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
             : !plan.transport.max_depth ? "paths end at their first vertex"
                                         : "light is found by chance (--light-sampling bsdf)");
   else
-    skipped(any_bin([](const ShadePlan& b) { return b.draw_choice; }) || scene.lights.size() > 1,
-            "draw choice", "there is one light");
+    skipped(
+        any_bin([](const ShadePlan& b) { return b.draw_choice; }) ||
+            (scene.lights.size() > 1 && !plan.light_by_place),
+        "draw choice",
+        plan.light_by_place ? "the number of the place chooses the light" : "there is one light");
   skipped(plan.light_tree || !plan.lights, "light tree", "lights are chosen by power");
   skipped(any_bin([](const ShadePlan& b) { return b.draw_lobe; }), "draw lobe",
           "no material chooses between lobes");

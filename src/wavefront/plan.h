@@ -35,7 +35,7 @@ struct ShadePlan {
   bool sample_lights = false;  ///< the scene has lights and the material is not delta
   bool all_around = false;     ///< see MaterialTraits
   // Random numbers that the rows need.
-  bool draw_choice = false;  ///< which light: there is more than one
+  bool draw_choice = false;  ///< which light: there is more than one, and not light_by_place
   bool draw_lobe = false;
   bool draw_direction = false;
   bool draw_roulette = false;
@@ -71,6 +71,7 @@ struct Plan {
   bool veils = false;             ///< some surface lets a part of the light pass: shadow rays go on
   uint32_t light_kernel = 0;      ///< index into KernelTable::sample_lights or sample_tree_lights
   bool light_tree = false;        ///< lights are chosen by the tree over them
+  bool light_by_place = false;    ///< the number of a light's place chooses the light, too
   bool lights = false;
   bool varying_emission = false;  ///< some light does not shine evenly: light samples are weighed
   bool environment = false;       ///< lights that rays find which leave the scene

@@ -111,8 +111,9 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
     if (plan.lights && !material_traits(material).delta) {
       const auto [u, v] = random(Dimension::kLight);
       const Receiver receiver{hit->position, ng, material_traits(material).all_around};
-      const LightPoint light =
-          sample_light(scene, receiver, random(Dimension::kChoice).first, double(u), double(v));
+      std::optional<float> choice;
+      if (!plan.light_by_place) choice = random(Dimension::kChoice).first;
+      const LightPoint light = sample_light(scene, receiver, choice, u, v);
       const Vec wi = axes.to_local(light.wi);
       if (!black(light.arriving) && glm::dot(ng, light.wi) * wi.z > 0) {
         const double weight = weight_of_sample(plan.light_sampling, light.pdf, bsdf.pdf(wi));

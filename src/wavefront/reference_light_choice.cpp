@@ -70,28 +70,34 @@ double far_share(const Scene& scene, const Place& place) {
 
 /// The alias table, in single precision as in the kernels: a path that chose another light would
 /// not be the same path.
-uint32_t by_power(const Scene& scene, float u) {
+struct AliasChoice {
+  uint32_t light;
+  float left;
+};
+AliasChoice by_power(const Scene& scene, float u) {
   const uint32_t count = scene.light_choice.size();
-  if (count < 2) return 0;
+  if (count < 2) return {0, u};
   const float place = u * float(count);
   const uint32_t interval = std::min(uint32_t(place), count - 1);
   const LightChoice<Value> entry = scene.light_choice.row(interval);
-  return place - float(uint32_t(place)) < entry.threshold ? interval : entry.other;
+  const float rest = place - float(uint32_t(place)), below_one = 0x1.fffffep-1f;
+  if (rest < entry.threshold) return {interval, std::min(rest / entry.threshold, below_one)};
+  return {entry.other, std::min((rest - entry.threshold) / (1 - entry.threshold), below_one)};
 }
 
 }  // namespace
 
 LightChance choose_light(const Scene& scene, const Receiver& receiver, float number) {
   if (scene.light_tree.nodes.size() == 0) {
-    const uint32_t light = by_power(scene, number);
-    const auto chance = double(scene.lights.row(light).probability);
-    return {light, chance, chance};
+    const AliasChoice chosen = by_power(scene, number);
+    const auto chance = double(scene.lights.row(chosen.light).probability);
+    return {chosen.light, chance, chance, chosen.left};
   }
   const Place place = place_of(scene, receiver);
   auto u = double(number);
   const double far = far_share(scene, place);
   if (u < far) {
-    const uint32_t light = scene.first_far_light + by_power(scene, float(u / far));
+    const uint32_t light = scene.first_far_light + by_power(scene, float(u / far)).light;
     const double chance = far * double(scene.lights.row(light).probability);
     return {light, chance, chance};
   }

@@ -232,9 +232,11 @@ Vec pick_environment(const Scene& scene, const LightRow<Value>& row, double u, d
 
 }  // namespace
 
-LightPoint sample_light(const Scene& scene, const Receiver& lit, float choice, double u, double v) {
+LightPoint sample_light(const Scene& scene, const Receiver& lit, std::optional<float> choice,
+                        float number_u, float number_v) {
   const Vec& receiver = lit.position;
-  const auto [chosen, chance, nominal] = choose_light(scene, lit, choice);
+  const auto [chosen, chance, nominal, left] = choose_light(scene, lit, choice.value_or(number_u));
+  const auto u = double(choice ? number_u : left), v = double(number_v);
   const LightRow<Value> row = scene.lights.row(chosen);
   LightPoint pick;
   double inverse_pdf = 0;

@@ -159,6 +159,7 @@ struct Receiver {
 struct LightChance {
   uint32_t light;
   double chance, nominal;
+  float left = 0;  ///< of the number, in [0, 1) again; without a tree only
 };
 LightChance choose_light(const Scene& scene, const Receiver& receiver, float u);
 /// LightChance::chance of a light. Nominal is that of a receiver lit from all around.
@@ -167,8 +168,9 @@ inline double nominal_chance(const Scene& scene, const Vec& receiver, uint32_t l
   return chance_of_light(scene, {receiver, Vec(0.0), true}, light);
 }
 
-LightPoint sample_light(const Scene& scene, const Receiver& receiver, float choice, double u,
-                        double v);
+/// Without a number for the choice, u chooses, and what is left of it is for the place.
+LightPoint sample_light(const Scene& scene, const Receiver& receiver, std::optional<float> choice,
+                        float u, float v);
 /// The density of sample_light for the point `at` of its light from `receiver`, by nominal chance.
 double light_pdf(const Scene& scene, const Vec& receiver, const Point& at, double cos);
 /// Of the light's row.
