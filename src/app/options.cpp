@@ -32,7 +32,7 @@ constexpr OptionText kRenderOptions[] = {
      "stop rendering after this time; what comes first of this and --spp counts"},
     {"--noise-target", "X", "none",
      "stop when relMSE is below X, by the picture's own estimate; --spp and --time stay bounds"},
-    {"--adaptive", "auto|on|off", "auto",
+    {"--adaptive", "auto|on|off", "off",
      "with --noise-target: more samples where the picture is noisy; auto: if that pays"},
     {"--threads", "N", "one per processor", "worker threads; the picture does not depend on them"},
     {"--integrator", "path|direct", "the scene's",

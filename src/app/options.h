@@ -55,10 +55,10 @@ struct Arguments {
   std::vector<std::string> outputs;
   std::optional<uint32_t> samples_per_pixel;
   std::optional<SampleRange> samples_range;
-  std::optional<double> time_limit;     ///< of rendering [s]
-  std::optional<double> noise_target;   ///< relMSE at which to stop
-  Adaptive adaptive = Adaptive::kAuto;  ///< with a noise target
-  uint32_t threads = 0;                 ///< 0: one per processor
+  std::optional<double> time_limit;    ///< of rendering [s]
+  std::optional<double> noise_target;  ///< relMSE at which to stop
+  Adaptive adaptive = Adaptive::kOff;  ///< with a noise target
+  uint32_t threads = 0;                ///< 0: one per processor
   std::optional<Integrator> integrator;
   std::optional<uint32_t> max_depth;
   std::optional<SamplerKind> sampler;
