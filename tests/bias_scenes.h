@@ -157,4 +157,30 @@ inline std::string veils_text() {
          "LightSource \"point\" \"point from\" [-.8 -.9 .8] \"color L\" [.3 .3 .3]\nWorldEnd\n";
 }
 
+/// A screen that shines by a texture, one above that does by texture and profile, and a lamp that
+/// shines evenly, over a floor before a wall.
+inline std::string screens_text() {
+  const auto lamp = [](const std::string& light, const std::string& points) {
+    return "AttributeBegin\nAreaLightSource \"area\" " + light +
+           " \"float power\" [0] \"float efficacy\" [0]\n" + matte_text("0 0 0") +
+           "Shape \"mesh\" \"integer triindices\" [0 1 2 0 2 3] \"point P\" [" + points +
+           "] \"float uv\" [0 0 0 1 1 1 1 0]\nAttributeEnd\n";
+  };
+  return view_text("0 -2.6 .4", "0 .2 -.7", 40, kProofSide, kProofSide) +
+         "Texture \"slope\" \"color\" \"bilerp\" \"color v00\" [.2 1 2] \"color v01\" [3 .5 1] "
+         "\"color v10\" [.5 2 1] \"color v11\" [1 1 4]\n"
+         "Texture \"drawn\" \"color\" \"checkerboard\" \"color tex1\" [3 2 1] \"color tex2\" [.5 1 "
+         "2] \"float uscale\" [4] \"float vscale\" [4]\n" +
+         matte_text(".6 .6 .6") + quad_text("-1 -1 -1", "1 -1 -1", "1 1 -1", "-1 1 -1") +
+         quad_text("-1 1 -1", "1 1 -1", "1 1 1", "-1 1 1") +
+         "Material \"metal\" \"string name\" [\"gold\"] \"float uroughness\" [.4] \"float "
+         "vroughness\" [.4]\n" +
+         sphere_text(".4 .2 -.6", .4) +
+         lamp("\"texture L\" [\"slope\"]", "-1 -1.2 .8 -1 .2 .8 .1 .2 .9 .1 -1.2 .9") +
+         lamp("\"texture L\" [\"drawn\"] \"string iesname\" [\"" YAT_SOURCE_DIR
+              "/scenes/screen/downlight.ies\"]",
+              ".2 -1 .8 .2 .4 .8 1.2 .4 .7 1.2 -1 .7") +
+         square_lamp_text(".5 .6 .8", ".4", "1.4") + "WorldEnd\n";
+}
+
 }  // namespace yat

@@ -59,6 +59,9 @@ TEST(BiasOfInstructionSets, Open) {
 TEST(BiasOfInstructionSets, Lamps) {
   prove_instruction_sets(lamps_room_text(other_lights_text()), 4);
 }
+TEST(BiasOfInstructionSets, Screens) {
+  prove_instruction_sets(screens_text(), 4);
+}
 TEST(BiasOfInstructionSets, Veils) {
   prove_instruction_sets(veils_text(), 5);
 }

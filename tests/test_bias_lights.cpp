@@ -31,16 +31,19 @@ TEST(BiasOfLightSampling, Box) {
   prove_light_sampling(box_text(), 6, 16, 16, 32);
 }
 TEST(BiasOfLightSampling, Plates) {
-  prove_light_sampling(plates_text(), 4, 16, 16, 32);
+  prove_light_sampling(plates_text(), 4, 16, 16, 64);
 }
 TEST(BiasOfLightSampling, Open) {
   prove_light_sampling(open_text(), 5, 16, 16, 32);
 }
 TEST(BiasOfLightSampling, Lamps) {
-  prove_light_sampling(lamps_room_text(), 5, 16, 16, 64);
+  prove_light_sampling(lamps_room_text(), 5, 16, 16, 96);
+}
+TEST(BiasOfLightSampling, Screens) {
+  prove_light_sampling(screens_text(), 4, 32, 32, 128);
 }
 TEST(BiasOfLightSampling, Veils) {
-  prove_light_sampling(veils_text(), 6, 16, 16, 32);
+  prove_light_sampling(veils_text(), 6, 16, 16, 64);
 }
 
 /// By power and by the tree against each light alike.
@@ -65,6 +68,9 @@ TEST(BiasOfLightChoice, Lamps) {
 }
 TEST(BiasOfLightChoice, LightsOfAllKinds) {
   prove_light_choice(lamps_room_text(other_lights_text()), 5, 16, 32);
+}
+TEST(BiasOfLightChoice, Screens) {
+  prove_light_choice(screens_text(), 4, 32, 64);
 }
 TEST(BiasOfLightChoice, Veils) {
   prove_light_choice(veils_text(), 6, 16, 32);

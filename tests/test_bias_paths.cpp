@@ -50,10 +50,11 @@ TEST(BiasOfSamplers, Open) {
 TEST(BiasOfSamplers, PartsOfSets) {
   const KernelTable& kernels = select_kernels();
   const Scene scene = compile_text(plates_text(), kernels);
-  const Runs independent = render_runs(scene, kernels, side_of(3, SamplerKind::kIndependent), 0);
+  const Runs independent =
+      render_runs(scene, kernels, side_of(3, SamplerKind::kIndependent, 32), 0);
   uint32_t number = 0;
   for (const SamplerKind sampler : kSpread) {
-    Side side = side_of(3, sampler, 11);
+    Side side = side_of(3, sampler, 21);
     side.sample_set = 40;
     expect_same(std::string(sampler_kind_name(sampler)),
                 render_runs(scene, kernels, side, ++number), independent);
