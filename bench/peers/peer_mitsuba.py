@@ -96,7 +96,11 @@ def measure_scene(o):
             programs += [Mitsuba(o, folder, variant, sampler, rr) for sampler in o.samplers for rr in o.rr_depths]
         runs = {(p.name, spp): [] for p in programs for spp in p.rungs}
         pictures = {key: [] for key in runs}
+        begin = time.monotonic()
         for seed in range(o.runs + 1):
+            if seed > 2 and time.monotonic() - begin > o.seconds:
+                print(f"only {seed - 1} runs within {o.seconds:g} s", file=sys.stderr)
+                break
             for spp in sorted({spp for p in programs for spp in p.rungs}):
                 for p in programs:  # in turn, so that what the machine does meets all alike
                     if spp in p.rungs:
@@ -127,7 +131,8 @@ def evaluate(o, programs, runs, pictures):
 
     first = programs[0].name
     return {"scene": lxs_scene.read_lxs(o.scene).name, "date": time.strftime("%Y-%m-%d"), "resolution": o.resolution,
-            "threads": o.threads, "machine": {"cpu": cpu_name(), "cores": os.cpu_count(), "system": platform.platform()},
+            "runs": min(map(len, runs.values())), "threads": o.threads,
+            "machine": {"cpu": cpu_name(), "cores": os.cpu_count(), "system": platform.platform()},
             "programs": {p.name: p.about for p in programs}, "rows": rows,
             "levels": {p.name: measure.levels(pooled(p.name), pooled(first)) for p in programs[1:]}}
 
@@ -216,6 +221,7 @@ def parse(argv):
     p.add_argument("--rr-depths", type=counts, default=[5], help="Mitsuba's rr_depth; 5 is its default")
     p.add_argument("--resolution", type=lambda t: [int(v) for v in t.split("x")], default=[256, 256])
     p.add_argument("--runs", type=int, default=16)
+    p.add_argument("--seconds", type=float, default=float("inf"), help="begin no further runs after this time")
     p.add_argument("--threads", type=int, default=1)
     p.add_argument("--spp-yat", type=counts, default=[4, 16, 64])
     p.add_argument("--spp-mitsuba", type=counts, default=[4, 16, 64])
