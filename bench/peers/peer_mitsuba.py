@@ -168,6 +168,26 @@ def ratios(peer, own, error, clock):
     return measure.bootstrap(efficiency, *columns)
 
 
+def drawn(rows, generator):
+    """The rows as another set of as many runs would have them: runs drawn with replacement, anew for every rung."""
+    made = []
+    for r in rows:
+        at = generator.integers(0, len(r["runs"]), len(r["runs"]))
+        made.append({"spp": r["spp"], "relmse": np.array(r["relmse_runs"])[at].mean(),
+                     "wall": np.median([r["runs"][i]["wall"] for i in at])})
+    return made
+
+
+def time_ratio(peer, own, target):
+    """Ratio of the wall times to a relMSE, with its interval, and whether either had to be guessed."""
+    generator = np.random.default_rng(1)
+    (a, a_outside), (b, b_outside) = time_to(peer, target, "wall"), time_to(own, target, "wall")
+    draws = [time_to(drawn(peer, generator), target, "wall")[0] / time_to(drawn(own, generator), target, "wall")[0]
+             for _ in range(1000)]
+    low, high = np.percentile(draws, [2.5, 97.5])
+    return {"value": a / b, "low": float(low), "high": float(high)}, a_outside or b_outside
+
+
 def print_tables(record):
     rows = record["rows"]
     own = {r["spp"]: r for r in rows if r["program"] == "yat"}
@@ -183,13 +203,16 @@ def print_tables(record):
               f" {r['relmse_trimmed']:.3e} | {' | '.join(cells)} |")
     print("\n| program | wall s to relMSE " + " | ".join(f"{t:g} | / yat's" for t in TARGETS) + " |")
     print("|---" * (1 + 2 * len(TARGETS)) + "|")
-    base = [time_to(list(own.values()), t, "wall") for t in TARGETS]
     for name in record["programs"]:
-        cells = []
-        for (b, b_outside), target in zip(base, TARGETS):
-            t, outside = time_to([r for r in rows if r["program"] == name], target, "wall")
-            mark = "*" if outside or b_outside else ""
-            cells += [f"{t:.3g}{'*' if outside else ''}", "" if name == "yat" else f"{t / b:.2f}{mark}"]
+        cells, of_program = [], [r for r in rows if r["program"] == name]
+        for target in TARGETS:
+            t, outside = time_to(of_program, target, "wall")
+            cells.append(f"{t:.3g}{'*' if outside else ''}")
+            if name == "yat":
+                cells.append("")
+            else:
+                ratio, outside = time_ratio(of_program, list(own.values()), target)
+                cells.append(measure.interval(ratio) + ("*" if outside else ""))
         print(f"| {name} | " + " | ".join(cells) + " |")
     print("\n(* beyond what was measured)\n")
     for name, v in record["levels"].items():
