@@ -3,9 +3,9 @@
 //   bench_accuracy [--filter TEXT] [--full] [--list] [--json FILE] [--seed N] [--scale X] ...
 //
 // Cases: closed forms (lights, furnaces, rooms, glass), albedos of rough lobes by quadrature, and
-// the analytic cases of CIE 171:2006 with Ashdown's errata; and Veach's plates by three estimators
-// and the scalar reference. Ends with 0 only if every case is
-// within --sigma standard errors of what is expected, at a standard error of at most --error %.
+// the analytic cases of CIE 171:2006 with the corrected table of 5.7; and Veach's plates by three
+// estimators and the scalar reference. Ends with 0 only if every case is within --sigma standard
+// errors of what is expected, at a standard error of at most --error %.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // CIE 171:2006, analytic cases 5.2 to 5.8: lamps, glass, reflections. Geometry and tables as in
-// the report; 5.7 as corrected by Ashdown. Rooms are 4 m x 4 m x 3 m (4 m in 5.8).
+// the report; 5.7 as others quote its correction. Rooms are 4 m x 4 m x 3 m (4 m in 5.8).
 
 #include <fmt/format.h>
 
@@ -165,7 +165,7 @@ void add_reflection(std::vector<Case>& cases) {
 
 // 5.7: a sunlit wall S2 (4 m x 3 m at y = 4, albedo .6) behind a black box 1 m high, between
 // y = 2.5 and 2.7: 100 E / (rho E_v) on the other wall and on the floor. Table 19 is wrong;
-// published are Ashdown's values.
+// published are the corrected values.
 void add_obstruction(std::vector<Case>& cases) {
   const Point points[] = {{'A', {2, 0, 2.75}, 16.07}, {'B', {2, 0, 2.25}, 16.33},
                           {'C', {2, 0, 1.75}, 15.40}, {'D', {2, 0, 1.25}, 13.32},
