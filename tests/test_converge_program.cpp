@@ -180,6 +180,33 @@ TEST_F(Converge, SaysWhatIsAssumed) {
   EXPECT_NE(r.err.find("3 samples are no power of two"), std::string::npos) << r.err;
 }
 
+// No run of 64 samples fits into a nanosecond; the lowest rung is measured all the same.
+TEST_F(Converge, RungsThatTakeTooLongAreLeftOut) {
+  const std::vector<std::string> words = {"-o",     "out", "--ladder",       "4,64",
+                                          "--runs", "3",   "--time-per-run", "1e-9"};
+  ASSERT_EQ(converge(words).code, 0);
+  const Json all = report();
+  EXPECT_EQ(all["runs"].size(), 3u);
+  EXPECT_EQ(all["summary"]["variants"][0]["headline_spp"], 4);
+  // The rung that is the highest then is the one that is tested for bias.
+  EXPECT_EQ(all["summary"]["variants"][0]["bias"]["pixels"], 16 * 12);
+  std::vector<std::string> longer = words;
+  longer[7] = "60";
+  ASSERT_EQ(converge(longer).code, 0);
+  const Json more = report();
+  EXPECT_EQ(more["runs"].size(), 6u);
+  // Pixels are summed up of the rung that is the highest now.
+  const auto kept = [&](const std::string& ending) {
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out"))
+      files += entry.path().filename().string().ends_with(ending);
+    return files;
+  };
+  EXPECT_EQ(kept("-4.bin"), 1);
+  EXPECT_EQ(kept("-64.bin"), 1);
+  EXPECT_EQ(more["summary"]["variants"][0]["bias"]["pixels"], 16 * 12);
+}
+
 TEST_F(Converge, AnInterruptKeepsWhatIsFinished) {
   const std::vector<std::string> words = {"-o",  "out",         "--ladder", "4,4096", "--runs",
                                           "200", "--reference", "r.exr",    "-v"};

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "converge/bias_test.h"
+#include "converge/hash.h"
 #include "converge/ladder.h"
 #include "converge/statistics.h"
 #include "converge/student.h"
@@ -110,6 +111,13 @@ TEST(Statistics, StudentsDistributionAgainstTables) {
   EXPECT_NEAR(student_two_sided(1.959964, 1e7), .05, 1e-6);
   EXPECT_EQ(student_two_sided(0, 7), 1);
   EXPECT_EQ(student_two_sided(-2, 7), student_two_sided(2, 7));
+}
+
+// The test vectors of the algorithm's authors.
+TEST(Hash, IsFnv1a) {
+  EXPECT_EQ(fnv1a_of(""), 0xcbf29ce484222325u);
+  EXPECT_EQ(fnv1a_of("a"), 0xaf63dc4c8601ec8cu);
+  EXPECT_EQ(fnv1a_of("foobar"), 0x85944171f73967e8u);
 }
 
 TEST(Ladder, SeedsOfRunsAndReferencesNeverMeet) {

@@ -12,6 +12,7 @@
 #include "app/converge_report.h"
 #include "app/interrupt.h"
 #include "converge/folder.h"
+#include "converge/hash.h"
 #include "converge/ladder.h"
 #include "film/output.h"
 
@@ -92,8 +93,7 @@ class ConvergeRun {
     height_ = film.crop_height();
     require_same_options();
     warn_of_sobol();
-    for (size_t i = 0; i < arguments.variants.size(); ++i)
-      moments_.push_back(folder_.moments(moments_name(i), width_, height_));
+    moments_.resize(arguments.variants.size());
   }
 
   ExitCode go();
@@ -104,7 +104,11 @@ class ConvergeRun {
                ? ProgressKind::kSilent
                : arguments.progress;
   }
-  static std::string moments_name(size_t variant) { return fmt::format("variant-{}", variant + 1); }
+  std::string moments_name(size_t variant, uint32_t spp) const {
+    return fmt::format("{:016x}-{}", fnv1a_of(arguments_.variants[variant].name), spp);
+  }
+  PixelMoments& moments_of(size_t variant, uint32_t spp);
+  std::vector<PixelMoments> highest_moments();
 
   void require_same_options() const;
   void warn_of_sobol() const;
@@ -127,7 +131,11 @@ class ConvergeRun {
   Reference reference_;
   bool have_reference_ = false;
   uint32_t width_ = 0, height_ = 0;
-  std::vector<PixelMoments> moments_;  ///< per variant, of its highest rung
+  struct RungMoments {
+    uint32_t spp = 0;  ///< 0: of no rung yet
+    PixelMoments moments;
+  };
+  std::vector<RungMoments> moments_;  ///< per variant, of the rung that was added to last
 };
 
 void ConvergeRun::require_same_options() const {
@@ -161,6 +169,23 @@ bool ConvergeRun::included(const ConvergeVariant& variant, size_t rung) const {
   if (folder_.find(variant.name, spp, 0)) return true;
   const RunRecord* const before = folder_.find(variant.name, below, 0);
   return before && before->seconds * double(spp) / double(below) <= arguments_.time_per_run;
+}
+
+PixelMoments& ConvergeRun::moments_of(size_t variant, uint32_t spp) {
+  RungMoments& rung = moments_[variant];
+  if (rung.spp != spp) rung = {spp, folder_.moments(moments_name(variant, spp), width_, height_)};
+  return rung.moments;
+}
+
+std::vector<PixelMoments> ConvergeRun::highest_moments() {
+  std::vector<PixelMoments> all;
+  for (size_t v = 0; v < arguments_.variants.size(); ++v) {
+    uint32_t highest = 0;
+    for (const uint32_t spp : arguments_.ladder)
+      if (folder_.find(arguments_.variants[v].name, spp, 0)) highest = spp;
+    all.push_back(moments_of(v, highest));
+  }
+  return all;
 }
 
 uint64_t ConvergeRun::samples_left() const {
@@ -237,9 +262,10 @@ void ConvergeRun::measure(size_t v, size_t rung, uint32_t run, std::atomic<bool>
       (arguments_.time_per_run > 0 && !folder_.find(variant.name, arguments_.ladder[rung + 1], 0) &&
        record.seconds * double(arguments_.ladder[rung + 1]) / double(spp) >
            arguments_.time_per_run);
-  if (highest && moments_[v].count() == run) {
-    moments_[v].add(result.image);
-    folder_.keep(moments_name(v), moments_[v]);
+  if (PixelMoments* const sums = highest ? &moments_of(v, spp) : nullptr;
+      sums && sums->count() == run) {
+    sums->add(result.image);
+    folder_.keep(moments_name(v, spp), *sums);
   }
   folder_.add(record);
   if (arguments_.verbosity == Verbosity::kVerbose)
@@ -276,7 +302,7 @@ ExitCode ConvergeRun::go() {
     progress_.end();
     if (have_reference_)
       write_report({arguments_, renders_, folder_, experiment_header(arguments_, renders_, given_),
-                    reference_, moments_},
+                    reference_, highest_moments()},
                    console_, stop);
     interrupted = guard.interrupted();
   }

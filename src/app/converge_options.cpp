@@ -58,15 +58,25 @@ bool among(std::string_view name, const std::string_view (&names)[N]) {
 
 constexpr std::string_view kHelp = "yat converge --help";
 
-/// Own options, and those of yat render that variants can have.
+/// Own options, and those of yat render.
 std::vector<OptionText> all_options() {
   std::vector<OptionText> all(std::begin(kConvergeOptions), std::end(kConvergeOptions));
-  for (const OptionText& option : render_option_texts()) {
-    const size_t comma = option.flags.find(',');
-    const auto name = option.flags.substr(comma == std::string_view::npos ? 0 : comma + 1);
-    if (!among(name, kNotForVariants)) all.push_back(option);
-  }
+  const std::span<const OptionText> render = render_option_texts();
+  all.insert(all.end(), render.begin(), render.end());
   return all;
+}
+
+bool is_own(std::string_view name) {
+  return std::any_of(std::begin(kConvergeOptions), std::end(kConvergeOptions),
+                     [&](const OptionText& own) { return own.flags.ends_with(name); });
+}
+
+void require_for_variants(std::string_view name) {
+  if (among(name, kNotForVariants))
+    throw UsageError(fmt::format(
+        "{}: not with yat converge, which says itself what is sampled and written: see --ladder, "
+        "--time-per-run and -o; {} lists what there is",
+        name, kHelp));
 }
 
 /// The arguments of yat render with these options.
@@ -112,10 +122,11 @@ ConvergeVariant read_variant(const std::string& scene, const std::string& text,
     if (!split.others.empty())
       throw UsageError(fmt::format("\"{}\" belongs to no option; write \"NAME: OPTIONS\"",
                                    split.others.front()));
-    for (const GivenOption& option : split.options)
-      for (const OptionText& own : kConvergeOptions)
-        if (own.flags.ends_with(option.name))
-          throw UsageError(fmt::format("{} is not for one variant: give it outside", option.name));
+    for (const GivenOption& option : split.options) {
+      if (is_own(option.name))
+        throw UsageError(fmt::format("{} is not for one variant: give it outside", option.name));
+      require_for_variants(option.name);
+    }
     return make_variant(scene, name, laid_over(split.options, shared));
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("--variant \"{}\": {}", name, error.what()));
@@ -177,6 +188,7 @@ ConvergeArguments parse_converge_arguments(const std::vector<std::string>& words
   std::vector<std::string> seen;
   for (const GivenOption& option : split.options) {
     const auto& [name, value] = option;
+    if (!is_own(name)) require_for_variants(name);
     if (name != "--variant") {
       if (std::find(seen.begin(), seen.end(), name) != seen.end())
         throw UsageError(fmt::format("{}: given twice", name));

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "app/build_info.h"
 #include "app/machine.h"
 #include "app/stats_parts.h"
+#include "converge/hash.h"
 #include "converge/ladder.h"
 #include "metrics/flip.h"
 
@@ -21,13 +21,7 @@ using Json = nlohmann::ordered_json;
 std::string program_identity() {
   std::string identity(kBuildInfo.commit);
   if (!identity.ends_with('+') && identity != "unknown") return identity;
-  std::ifstream program("/proc/self/exe", std::ios::binary);
-  uint64_t hash = 0xcbf29ce484222325u;
-  char block[1 << 16];
-  while (program.read(block, sizeof block) || program.gcount() > 0)
-    for (std::streamsize i = 0; i < program.gcount(); ++i)
-      hash = (hash ^ uint8_t(block[i])) * 0x100000001b3u;
-  return fmt::format("{} {:016x}", identity, hash);
+  return fmt::format("{} {:016x}", identity, fnv1a_of_file("/proc/self/exe"));
 }
 
 Json settings_of(const ConvergeRenders& renders, const ConvergeVariant& variant, const Plan& plan) {

@@ -18,7 +18,7 @@ struct FinishedRuns {
   const ConvergeFolder& folder;
   nlohmann::ordered_json header;  ///< of the experiment
   const Reference& reference;
-  const std::vector<PixelMoments>& moments;  ///< per variant
+  std::vector<PixelMoments> moments;  ///< per variant, of its highest rung
 };
 
 /// Prints the tables and writes report.json, report.html and the plots into the folder. Renders one

@@ -6,25 +6,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "base/error.h"
+#include "converge/hash.h"
 
 namespace yat {
 
 namespace {
-
-uint64_t fnv1a(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  uint64_t hash = 0xcbf29ce484222325u;
-  char block[1 << 16];
-  while (file.read(block, sizeof block) || file.gcount() > 0)
-    for (std::streamsize i = 0; i < file.gcount(); ++i)
-      hash = (hash ^ uint8_t(block[i])) * 0x100000001b3u;
-  return hash;
-}
 
 std::optional<uint64_t> number_in(const OIIO::ImageSpec& spec, const char* attribute, int base) {
   const std::string text(spec.get_string_attribute(attribute));
@@ -67,7 +56,7 @@ Reference read_reference(const std::string& path) {
   if (!std::all_of(reference.image.rgb.begin(), reference.image.rgb.end(),
                    [](float v) { return std::isfinite(v); }))
     throw Error(fmt::format("{}: error: holds values that are not finite: render it anew", path));
-  reference.hash = fnv1a(path);
+  reference.hash = fnv1a_of_file(path);
   if (const auto file = OIIO::ImageInput::open(path)) {
     const OIIO::ImageSpec spec = file->spec();
     reference.samples_per_pixel = double(spec.get_float_attribute("yat:samples_per_pixel"));
