@@ -206,11 +206,13 @@ TEST(BiasOfKernels, SplitAndWholeMaterials) {
                     picture_of(whole, kernels, side_of(5)), .999);
 }
 
-// Objects stored once, and copied. Lights have another order then, and other random numbers.
+// Objects stored once, and copied. Lights have another order then, and other random numbers. The
+// balls are flat: vertex normals of stored objects are interpolated in the object, so under maps
+// that stretch, those of copies differ by intention.
 TEST(BiasOfKernels, SharedAndCopiedObjects) {
   const KernelTable& kernels = select_kernels();
   const std::string ball = "ObjectBegin \"ball\"\n" + matte_text(".7 .4 .3") + "Scale .3 .3 .3\n" +
-                           ball_text(8, 12, .1, true) + "ObjectEnd\n";
+                           ball_text(8, 12, .1, false) + "ObjectEnd\n";
   std::string crowd = view_text("0 -2.6 .3", "0 0 -.2", 50, kProofSide, kProofSide) + ball +
                       matte_text(".6 .6 .6") +
                       quad_text("-2 -2 -1", "2 -2 -1", "2 2 -1", "-2 2 -1") +

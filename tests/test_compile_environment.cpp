@@ -24,6 +24,7 @@ TEST_F(CompileEnvironment, RowsOfEnvironmentsAreTheLast) {
   light(plugin("point", {}));
   shape(square()).area_light = area_light({number("power", 0), number("efficacy", 0)});
   options.colour = ColourMode::kRgb;
+  options.light_choice = LightChoosing::kPower;
   const Scene scene = compile();
   ASSERT_EQ(scene.lights.size(), 4u);
   EXPECT_EQ(scene.first_environment, 3u);

@@ -149,6 +149,19 @@ TEST_F(CompileLights, PointLight) {
               1e-6);
 }
 
+// A sky's power is that through the whole scene, little of which may be seen: a lamp keeps half.
+TEST_F(CompileLights, LampsUnderASkyKeepHalfOfTheChances) {
+  shape(square(), scale(100, 100, 100));
+  light(plugin("point", {number("gain", 1)}));
+  light(plugin("infinite", {number("gain", 50)}));
+  const Scene scene = compile();
+  ASSERT_EQ(scene.lights.size(), 2u);
+  EXPECT_FLOAT_EQ(scene.lights.row(0).probability, .5f);
+  EXPECT_FLOAT_EQ(scene.lights.row(1).probability, .5f);
+  options.light_choice = LightChoosing::kPower;
+  EXPECT_LT(compile().lights.row(0).probability, .01f);
+}
+
 TEST_F(CompileLights, DistantLight) {
   shape(triangle());
   light(plugin("distant", {numbers(ParameterType::kPoint, "from", {0, 0, 2}),

@@ -118,6 +118,17 @@ TEST_F(CompileOptionsTest, StretchedWindowWarns) {
       "picture, which is therefore stretched vertically 1.78 times");
 }
 
+// Nothing moves, so when the shutter is open does not matter.
+TEST_F(CompileOptionsTest, ShutterTimesAreAccepted) {
+  film({integers("xresolution", {100}), integers("yresolution", {100})});
+  camera({number("fov", 60)});
+  const glm::dvec3 before = direction(compile().camera, 20, 30);
+  camera({number("fov", 60), number("shutteropen", .25f), number("shutterclose", .5f),
+          text("shutterdistribution", "uniform")});
+  EXPECT_EQ(direction(compile().camera, 20, 30), before);
+  EXPECT_EQ(all_said(), "");
+}
+
 TEST_F(CompileOptionsTest, CameraErrors) {
   camera({number("fov", 180)});
   EXPECT_EQ(error(),

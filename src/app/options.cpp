@@ -54,8 +54,8 @@ constexpr OptionText kRenderOptions[] = {
     {"--instances", "auto|copy|share", "auto",
      "objects placed by ObjectInstance: copied, stored once, or as their size says"},
     {"--light-choice", "auto|power|tree|uniform", "auto",
-     "how a lamp is chosen: by power, by a tree that knows distances too, or each alike; auto: by "
-     "their number"},
+     "how a lamp is chosen: by power, by a tree that knows distances too, or each alike; auto: the "
+     "tree from four lamps on, else power, of which sky and sun get at most half"},
     {"--light-sampling", "mis|lights|bsdf", "mis",
      "how light is found: by asking lamps and by chance, weighted; by asking alone; by chance "
      "alone. To compare and to debug: mis is the least noisy"},
@@ -99,8 +99,8 @@ constexpr OptionText kInfoOptions[] = {
     {"--instances", "auto|copy|share", "auto",
      "objects placed by ObjectInstance: copied, stored once, or as their size says"},
     {"--light-choice", "auto|power|tree|uniform", "auto",
-     "how a lamp is chosen: by power, by a tree that knows distances too, or each alike; auto: by "
-     "their number"},
+     "how a lamp is chosen: by power, by a tree that knows distances too, or each alike; auto: the "
+     "tree from four lamps on, else power, of which sky and sun get at most half"},
     {"--light-sampling", "mis|lights|bsdf", "mis",
      "how light is found: by asking lamps and by chance, weighted; by asking alone; by chance "
      "alone. To compare and to debug: mis is the least noisy"},

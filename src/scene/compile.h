@@ -93,7 +93,7 @@ inline constexpr uint64_t kCopiedTriangles = 1 << 18;
 
 /// --light-choice: how a surface chooses the light that it asks for.
 enum class LightChoosing {
-  kAuto,     ///< by the tree from kTreeLights on
+  kAuto,     ///< by the tree from kTreeLights on; else by power, half or more to those with a place
   kPower,    ///< by power alone
   kTree,     ///< by power, distance and direction, if two lights have a place
   kUniform,  ///< each alike: what the others are proved against

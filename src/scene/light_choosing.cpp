@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "scene/alias_table.h"
 #include "scene/compile_parts.h"
@@ -42,6 +43,16 @@ bool make_tree(std::vector<LightRow<Value>>& rows, uint32_t placed, ThreadPool& 
   return true;
 }
 
+/// Power of a sky or a sun is that through a disc around the whole scene, most of which may meet no
+/// surface that is seen: lights with a place, the first ones, keep at least half of the chances.
+void leave_half_to_places(std::vector<double>& power, uint32_t placed) {
+  const auto first_far = power.begin() + placed;
+  const double near = std::accumulate(power.begin(), first_far, 0.),
+               far = std::accumulate(first_far, power.end(), 0.);
+  if (near > 0 && far > near)
+    for (auto p = first_far; p != power.end(); ++p) *p *= near / far;
+}
+
 }  // namespace
 
 void prepare_light_choice(std::vector<LightRow<Value>>& rows, LightChoosing choosing,
@@ -66,6 +77,7 @@ void prepare_light_choice(std::vector<LightRow<Value>>& rows, LightChoosing choo
     power.push_back(choosing == LightChoosing::kUniform
                         ? 1
                         : light_power(rows[i], scene.colour, double(scene.radius)));
+  if (choosing == LightChoosing::kAuto && !by_tree) leave_half_to_places(power, placed);
   const AliasTable table = make_alias_table(power);
   scene.light_choice.resize(all - first);
   for (uint32_t i = first; i < all; ++i) {
