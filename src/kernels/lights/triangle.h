@@ -129,7 +129,7 @@ struct TriangleLight {
 
  private:
   /// Of twice that distance on, the cosine over the squared distance varies by a third or less.
-  static constexpr float kFar = 1;
+  static constexpr float kFar = 2;
   static constexpr float kOpeningShare = 1.f / 32;  ///< up to 6.22 sr
   static constexpr float kLeastVolume = 1.f / 64;
 };
