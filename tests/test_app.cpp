@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/option_texts.h"
 #include "app/options.h"
 #include "app/passes.h"
 #include "app/progress.h"

@@ -4,6 +4,7 @@
 
 #include "app/converge_options.h"
 #include "app/option_words.h"
+#include "app/options.h"
 #include "run_program.h"
 
 namespace yat {

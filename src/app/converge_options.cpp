@@ -7,6 +7,7 @@
 
 #include "app/option_values.h"
 #include "app/option_words.h"
+#include "app/options.h"
 #include "converge/ladder.h"
 
 namespace yat {

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/options.h"
+#include "app/arguments.h"
+#include "app/option_texts.h"
 
 namespace yat {
 

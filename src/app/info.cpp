@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "app/options.h"
+#include "app/option_names.h"
 #include "film/film.h"
 
 namespace yat {

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <string_view>
 
+#include "app/arguments.h"
 #include "app/console.h"
-#include "app/options.h"
 #include "app/report.h"
 #include "base/error.h"
 #include "base/parallel.h"

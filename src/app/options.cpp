@@ -4,12 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "app/build_info.h"
 #include "app/converge_options.h"
+#include "app/option_names.h"
+#include "app/option_texts.h"
 #include "app/option_values.h"
 #include "base/error.h"
 #include "kernels/strata.h"
@@ -20,189 +21,6 @@ namespace {
 
 // Samples are keyed by 32-bit indices; this leaves room for the next pass in any sum.
 constexpr uint32_t kMostSamples = uint32_t(1) << 30;
-
-constexpr OptionText kRenderOptions[] = {
-    {"-o,--output", "FILE", "as the film's filename and write_ flags say",
-     "picture to write: .png, .exr, .jpg or .tga; may be given several times"},
-    {"--spp", "N", "the scene's haltspp, or 64; no limit with --time",
-     "samples per pixel; powers of two suit the sobol sampler"},
-    {"--samples-range", "A,B", "0 to --spp",
-     "render only the samples A to B-1 of every pixel, to repeat or to split a render"},
-    {"--time", "SECONDS", "the scene's halttime, or no limit",
-     "stop rendering after this time; what comes first of this and --spp counts"},
-    {"--noise-target", "X", "none",
-     "stop when relMSE is below X, by the picture's own estimate; --spp and --time stay bounds"},
-    {"--adaptive", "auto|on|off", "off",
-     "with --noise-target: more samples where the picture is noisy; auto: if that pays"},
-    {"--threads", "N", "one per processor", "worker threads; the picture does not depend on them"},
-    {"--integrator", "path|direct", "the scene's",
-     "path: all light; direct: direct light, mirrors and glass"},
-    {"--max-depth", "N", "the scene's",
-     "vertices after which a path ends; 0 sees light sources only"},
-    {"--sampler", "NAME", "the scene's",
-     "where random numbers come from: sobol, independent, regular, jittered, nrooks, multijittered "
-     "or cmj"},
-    {"--sample-set", "N", "all samples of a pixel",
-     "samples that the samplers regular to cmj spread over a pixel together"},
-    {"--compat", "luxrender|yart", "luxrender",
-     "whose rules the scene follows: LuxRender's, or those of YART"},
-    {"--colour", "bands|rgb", "bands; with --compat yart rgb",
-     "how colours multiply: bands: as LuxRender's spectra do; rgb: channel by channel"},
-    {"--seed", "N", "0", "another seed gives another, independent picture"},
-    {"--resolution", "WxH", "the film's", "size of the full picture in pixels"},
-    {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
-    {"--instances", "auto|copy|share", "auto",
-     "objects placed by ObjectInstance: copied, stored once, or as their size says"},
-    {"--light-choice", "auto|power|tree|uniform", "auto",
-     "how a lamp is chosen: by power, by a tree that knows distances too, or each alike; auto: the "
-     "tree from four lamps on, else power, of which sky and sun get at most half"},
-    {"--light-sampling", "mis|lights|bsdf", "mis",
-     "how light is found: by asking lamps and by chance, weighted; by asking alone; by chance "
-     "alone. To compare and to debug: mis is the least noisy"},
-    {"--roulette", "N|off", "1",
-     "vertex from which on dim paths end by chance, brighter survivors making up for it; off: "
-     "paths go on to --max-depth"},
-    {"--texture-cache", "MB", "2048",
-     "most memory for the texels of images; the finest levels are left out beyond it"},
-    {"--energy-compensation", "auto|on|off", "auto",
-     "add back what the facets of a rough lobe lose to each other; auto: where the look is not "
-     "LuxRender's own (metal2 with --compat yart)"},
-    {"--isa", "NAME", "YAT_ISA, or the best here", "instruction set of the kernels"},
-    {"--tree", "auto|kd", "the scene's",
-     "tree over the triangles; auto: the fastest for them, kd: a strict kd-tree; the picture is "
-     "the same"},
-    {"--tonemap", "NAME", "the film's",
-     "linear, reinhard, autolinear, maxwhite, contrast, falsecolors, outofgamut, yart-linear or "
-     "yart-reinhard; for .png, .jpg and .tga"},
-    {"--exposure", "STOPS", "0", "brighten .png and .jpg by 2^STOPS before tone mapping"},
-    {"--aov", "LIST", "none",
-     "feature pictures into the .exr, comma-separated: albedo, normal, geometric_normal, depth, "
-     "position, uv, direct, indirect, variance, sample_count, object_id, material_id, or all"},
-    {"--stats", "FILE", "none", "write what was done and how long it took as JSON"},
-    {"--trace", "FILE", "none", "write the stages of each thread over time as Chrome trace events"},
-    {"--progress", "auto|bar|plain|json|none", "auto",
-     "how to report progress on stderr; auto: bar on a terminal, else plain"},
-    {"-v,--verbose", "", "off", "say more: notes, passes, memory"},
-    {"-q,--quiet", "", "off", "say only what went wrong"},
-    {"-h,--help", "", "", "print this"},
-};
-
-constexpr OptionText kInfoOptions[] = {
-    {"--compat", "luxrender|yart", "luxrender",
-     "whose rules the scene follows: LuxRender's, or those of YART"},
-    {"--threads", "N", "one per processor", "worker threads for building the tree"},
-    {"--integrator", "path|direct", "the scene's", "plan for this integrator"},
-    {"--max-depth", "N", "the scene's", "plan for this depth"},
-    {"--sampler", "NAME", "the scene's", "plan for this sampler"},
-    {"--resolution", "WxH", "the film's", "size of the full picture in pixels"},
-    {"--crop", "x0,x1,y0,y1", "the film's", "part to render, as fractions of width and height"},
-    {"--instances", "auto|copy|share", "auto",
-     "objects placed by ObjectInstance: copied, stored once, or as their size says"},
-    {"--light-choice", "auto|power|tree|uniform", "auto",
-     "how a lamp is chosen: by power, by a tree that knows distances too, or each alike; auto: the "
-     "tree from four lamps on, else power, of which sky and sun get at most half"},
-    {"--light-sampling", "mis|lights|bsdf", "mis",
-     "how light is found: by asking lamps and by chance, weighted; by asking alone; by chance "
-     "alone. To compare and to debug: mis is the least noisy"},
-    {"--roulette", "N|off", "1",
-     "vertex from which on dim paths end by chance, brighter survivors making up for it; off: "
-     "paths go on to --max-depth"},
-    {"--texture-cache", "MB", "2048",
-     "most memory for the texels of images; the finest levels are left out beyond it"},
-    {"--isa", "NAME", "YAT_ISA, or the best here", "instruction set of the kernels"},
-    {"--tree", "auto|kd", "the scene's",
-     "tree over the triangles; auto: the fastest for them, kd: a strict kd-tree; the picture is "
-     "the same"},
-    {"-v,--verbose", "", "off", "say more: notes"},
-    {"-q,--quiet", "", "off", "no warnings"},
-    {"-h,--help", "", "", "print this"},
-};
-
-constexpr OptionText kDiffOptions[] = {
-    {"-o,--output", "FILE", "none", "map of FLIP per pixel: .exr for the values, .png for greys"},
-    {"--fail", "X", "0 if another --fail option is there",
-     "a pixel with a channel that differs by more than X counts as failed"},
-    {"--failpercent", "P", "0", "so many percent of the pixels may fail"},
-    {"--hardfail", "X", "none", "one pixel that differs by more than X is enough"},
-    {"--failrelmse", "X", "none", "fail where relMSE is above X"},
-    {"--failflip", "X", "none", "fail where FLIP (HDR-FLIP of radiance) is above X"},
-    {"--warn", "X", "0 if another --warn option is there", "as --fail, for a warning"},
-    {"--warnpercent", "P", "0", "as --failpercent, for a warning"},
-    {"--hardwarn", "X", "none", "as --hardfail, for a warning"},
-    {"-h,--help", "", "", "print this"},
-};
-
-constexpr std::array<std::pair<std::string_view, Integrator>, 2> kIntegrators = {
-    {{"path", Integrator::kPath}, {"direct", Integrator::kDirect}}};
-constexpr std::array<std::pair<std::string_view, SamplerKind>, 7> kSamplers = {
-    {{"sobol", SamplerKind::kSobol},
-     {"independent", SamplerKind::kIndependent},
-     {"regular", SamplerKind::kRegular},
-     {"jittered", SamplerKind::kJittered},
-     {"nrooks", SamplerKind::kNRooks},
-     {"multijittered", SamplerKind::kMultiJittered},
-     {"cmj", SamplerKind::kCorrelatedMultiJittered}}};
-constexpr std::array<std::pair<std::string_view, Dialect>, 2> kDialects = {
-    {{"luxrender", Dialect::kLuxRender}, {"yart", Dialect::kYart}}};
-constexpr std::array<std::pair<std::string_view, TreeChoice>, 2> kTrees = {
-    {{"auto", TreeChoice::kAuto}, {"kd", TreeChoice::kKd}}};
-constexpr std::array<std::pair<std::string_view, ColourMode>, 2> kColourModes = {
-    {{"bands", ColourMode::kBands}, {"rgb", ColourMode::kRgb}}};
-constexpr std::array<std::pair<std::string_view, InstanceMode>, 3> kInstanceModes = {
-    {{"auto", InstanceMode::kAuto},
-     {"copy", InstanceMode::kCopy},
-     {"share", InstanceMode::kShare}}};
-constexpr std::array<std::pair<std::string_view, Adaptive>, 3> kAdaptives = {
-    {{"auto", Adaptive::kAuto}, {"on", Adaptive::kOn}, {"off", Adaptive::kOff}}};
-constexpr std::array<std::pair<std::string_view, EnergyCompensation>, 3> kCompensations = {
-    {{"auto", EnergyCompensation::kAuto},
-     {"on", EnergyCompensation::kOn},
-     {"off", EnergyCompensation::kOff}}};
-constexpr std::array<std::pair<std::string_view, LightChoosing>, 4> kLightChoices = {
-    {{"auto", LightChoosing::kAuto},
-     {"power", LightChoosing::kPower},
-     {"tree", LightChoosing::kTree},
-     {"uniform", LightChoosing::kUniform}}};
-constexpr std::array<std::pair<std::string_view, LightSampling>, 3> kLightSamplings = {
-    {{"mis", LightSampling::kBoth},
-     {"lights", LightSampling::kLights},
-     {"bsdf", LightSampling::kBsdf}}};
-constexpr std::array<std::pair<std::string_view, ToneMap>, 9> kToneMaps = {
-    {{"linear", ToneMap::kLinear},
-     {"reinhard", ToneMap::kReinhard},
-     {"autolinear", ToneMap::kAutoLinear},
-     {"maxwhite", ToneMap::kMaxWhite},
-     {"contrast", ToneMap::kContrast},
-     {"falsecolors", ToneMap::kFalseColors},
-     {"outofgamut", ToneMap::kOutOfGamut},
-     {"yart-linear", ToneMap::kYartLinear},
-     {"yart-reinhard", ToneMap::kYartReinhard}}};
-constexpr std::array<std::pair<std::string_view, ProgressKind>, 5> kProgressKinds = {
-    {{"auto", ProgressKind::kAuto},
-     {"bar", ProgressKind::kBar},
-     {"plain", ProgressKind::kPlain},
-     {"json", ProgressKind::kJson},
-     {"none", ProgressKind::kSilent}}};
-
-/// The value called `name`, or a UsageError that lists the names.
-template <class T, size_t N>
-T by_name(std::string_view option, std::string_view name,
-          const std::array<std::pair<std::string_view, T>, N>& names) {
-  std::vector<std::string_view> all;
-  for (const auto& [known, value] : names) {
-    if (known == name) return value;
-    all.push_back(known);
-  }
-  throw UsageError(fmt::format("{} {}: unknown{}; choose from {}", option, name,
-                               did_you_mean(name, all), fmt::join(all, ", ")));
-}
-
-template <class T, size_t N>
-std::string_view name_of(T wanted, const std::array<std::pair<std::string_view, T>, N>& names) {
-  for (const auto& [name, value] : names)
-    if (value == wanted) return name;
-  return "unknown";
-}
 
 /// Text of every option as given; read into Arguments once all are known.
 struct Given {
@@ -412,17 +230,6 @@ void read_given(const Given& given, Arguments& to) {
                                  : Verbosity::kNormal;
 }
 
-/// Flags as written in help and documents: "-o, --output FILE".
-std::string shown_flags(const OptionText& option) {
-  const size_t comma = option.flags.find(',');
-  std::string flags =
-      comma == std::string_view::npos
-          ? std::string(option.flags)
-          : fmt::format("{}, {}", option.flags.substr(0, comma), option.flags.substr(comma + 1));
-  if (!option.value.empty()) flags += fmt::format(" {}", option.value);
-  return flags;
-}
-
 std::string general_help() {
   return "Usage: yat render SCENE [OPTION...]   render a LuxRender scene (.lxs) to pictures\n"
          "       yat info SCENE [OPTION...]     say what the scene holds and how it would be "
@@ -445,19 +252,19 @@ std::string general_help() {
 std::string help_for(const CLI::App* render, const CLI::App* info, const CLI::App* diff) {
   if (render->parsed())
     return option_help("yat render SCENE [OPTION...]",
-                       "Renders a LuxRender scene (.lxs) to pictures.", kRenderOptions);
+                       "Renders a LuxRender scene (.lxs) to pictures.", render_option_texts());
   if (info->parsed())
     return option_help(
         "yat info SCENE [OPTION...]",
         "Says what the scene holds, which stages and kernels would run, what the tree is "
         "like, and memory.",
-        kInfoOptions);
+        info_option_texts());
   if (diff->parsed())
     return option_help(
         "yat diff PICTURE REFERENCE [OPTION...]",
         "Compares two pictures of one size: MSE, relMSE, MAPE, PSNR, FLIP, outliers. Exit "
         "code 4 and FAIL, 5 and WARN, or 0 and PASS by the thresholds that are given.",
-        kDiffOptions);
+        diff_option_texts());
   return general_help();
 }
 
@@ -481,63 +288,6 @@ std::string option_suggestion(int argc, const char* const* argv,
 }
 
 }  // namespace
-
-std::span<const OptionText> render_option_texts() {
-  return kRenderOptions;
-}
-std::span<const OptionText> info_option_texts() {
-  return kInfoOptions;
-}
-
-std::span<const OptionText> diff_option_texts() {
-  return kDiffOptions;
-}
-
-std::string option_help(std::string_view usage, std::string_view text,
-                        std::span<const OptionText> options) {
-  std::string help = fmt::format("Usage: {}\n{}\n\nOptions:\n", usage, text);
-  for (const OptionText& option : options) {
-    help += fmt::format("  {}\n      {}\n", shown_flags(option), option.text);
-    if (!option.fallback.empty()) help += fmt::format("      default: {}\n", option.fallback);
-  }
-  return help;
-}
-
-std::string option_table(std::span<const OptionText> options) {
-  std::string table = "| option | default | what it does |\n|---|---|---|\n";
-  for (const OptionText& option : options) {
-    // A bar inside a table cell must be escaped, in code too.
-    std::string flags;
-    for (const char letter : shown_flags(option)) {
-      if (letter == '|') flags += '\\';
-      flags += letter;
-    }
-    table += fmt::format("| `{}` | {} | {} |\n", flags, option.fallback, option.text);
-  }
-  return table;
-}
-
-std::string_view integrator_name(Integrator integrator) {
-  return name_of(integrator, kIntegrators);
-}
-std::string_view sampler_name(SamplerKind sampler) {
-  return name_of(sampler, kSamplers);
-}
-std::string_view colour_name(ColourMode colour) {
-  return name_of(colour, kColourModes);
-}
-std::string_view light_choice_name(LightChoosing choosing) {
-  return name_of(choosing, kLightChoices);
-}
-std::string_view light_sampling_name(LightSampling ways) {
-  return name_of(ways, kLightSamplings);
-}
-std::string_view dialect_name(Dialect dialect) {
-  return name_of(dialect, kDialects);
-}
-std::string_view tone_map_name(ToneMap tone_map) {
-  return name_of(tone_map, kToneMaps);
-}
 
 CommandLine parse_command_line(int argc, const char* const* argv) {
   CommandLine line;
@@ -576,9 +326,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   diff->add_option("PICTURE", line.diff.picture)->required();
   diff->add_option("REFERENCE", line.diff.reference)->required();
   GivenDiff given_diff;
-  Adder add_to_diff(*diff, kDiffOptions);
+  Adder add_to_diff(*diff, diff_option_texts());
   given_diff.add_to(add_to_diff, line.diff);
-  Adder add_to_render(*render, kRenderOptions), add_to_info(*info, kInfoOptions);
+  Adder add_to_render(*render, render_option_texts()), add_to_info(*info, info_option_texts());
   add_render(add_to_render, line.arguments, given);
   add_shared(add_to_info, line.arguments, given);
 

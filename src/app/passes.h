@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "app/options.h"
+#include "app/arguments.h"
 #include "app/pass_runner.h"
 
 namespace yat {

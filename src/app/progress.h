@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "app/arguments.h"
 #include "app/console.h"
-#include "app/options.h"
 
 namespace yat {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/options.h"
+#include "app/arguments.h"
 #include "app/passes.h"
 
 namespace yat {

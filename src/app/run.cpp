@@ -15,6 +15,7 @@
 #include "app/interrupt.h"
 #include "app/load.h"
 #include "app/noise_passes.h"
+#include "app/options.h"
 #include "app/passes.h"
 #include "app/report.h"
 #include "app/yart_run.h"

@@ -6,6 +6,7 @@
 
 #include "app/build_info.h"
 #include "app/machine.h"
+#include "app/option_names.h"
 #include "app/report.h"
 #include "app/stats_parts.h"
 
