@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/student.h"
+
 namespace yat {
 
 /// Mean of `count` independent values and their variance (unbiased, of one value).
@@ -27,41 +29,9 @@ inline Moments moments_of(const std::vector<double>& values) {
   return m;
 }
 
-/// Regularised incomplete beta function I_x(a, b): continued fraction (NIST DLMF 8.17.22) by
-/// Lentz's method, on the side of x where it converges fast.
-inline double incomplete_beta(double a, double b, double x) {
-  if (!(x > 0)) return 0;
-  if (x >= 1) return 1;
-  if (x > (a + 1) / (a + b + 2)) return 1 - incomplete_beta(b, a, 1 - x);
-  const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) +
-                                a * std::log(x) + b * std::log1p(-x)) /
-                       a;
-  constexpr double kTiny = 1e-300;
-  double c = 1, d = 1 - (a + b) * x / (a + 1);
-  d = 1 / (std::fabs(d) < kTiny ? kTiny : d);
-  double h = d;
-  for (int m = 1; m < 10000; ++m) {
-    for (const double term : {m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)),
-                              -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1))}) {
-      d = 1 + term * d;
-      c = 1 + term / c;
-      d = 1 / (std::fabs(d) < kTiny ? kTiny : d);
-      if (std::fabs(c) < kTiny) c = kTiny;
-      h *= d * c;
-    }
-    if (std::fabs(d * c - 1) < 1e-15) break;
-  }
-  return front * h;
-}
-
 /// P(|z| > |x|) of the normal distribution.
 inline double normal_p_value(double x) {
   return std::erfc(std::fabs(x) / std::numbers::sqrt2);
-}
-
-/// P(|t| > |x|) of Student's distribution with any degrees of freedom > 0.
-inline double student_p_value(double x, double degrees) {
-  return incomplete_beta(degrees / 2, .5, degrees / (degrees + x * x));
 }
 
 /// Whether a mean with a known standard error > 0 is the known one (z-test).
@@ -78,7 +48,7 @@ inline double welch_test(const Moments& a, const Moments& b, double floor = 0) {
   if (sum == 0) return difference == 0 ? 1 : 0;
   const double spread = ea * ea / (a.count - 1) + eb * eb / (b.count - 1);
   const double x = difference / std::sqrt(sum);
-  return spread > 0 ? student_p_value(x, sum * sum / spread) : normal_p_value(x);
+  return spread > 0 ? student_two_sided(x, sum * sum / spread) : normal_p_value(x);
 }
 
 /// The least of `tests` p-values as one p-value of all together (Sidak 1967): exact for
@@ -113,7 +83,9 @@ inline double uniformity_p_value(std::vector<double> p) {
 
 /// P(at least `failures` of `trials`), each failing with probability `alpha`.
 inline double binomial_upper_tail(size_t failures, size_t trials, double alpha) {
-  return failures ? incomplete_beta(double(failures), double(trials - failures) + 1, alpha) : 1;
+  return failures
+             ? incomplete_beta(alpha, 1 - alpha, double(failures), double(trials - failures) + 1)
+             : 1;
 }
 
 }  // namespace yat

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <random>
 
+#include "base/student.h"
 #include "converge/bias_test.h"
 #include "converge/hash.h"
 #include "converge/ladder.h"
 #include "converge/statistics.h"
-#include "converge/student.h"
 
 namespace yat {
 namespace {

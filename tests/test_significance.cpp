@@ -16,14 +16,14 @@ namespace yat {
 namespace {
 
 TEST(Significance, ValuesOfTables) {
-  EXPECT_NEAR(incomplete_beta(2, 3, .5), .6875, 1e-12);
-  EXPECT_NEAR(incomplete_beta(.5, .5, .25), 1. / 3, 1e-12);
+  EXPECT_NEAR(incomplete_beta(.5, .5, 2, 3), .6875, 1e-12);
+  EXPECT_NEAR(incomplete_beta(.25, .75, .5, .5), 1. / 3, 1e-12);
   EXPECT_NEAR(normal_p_value(1.959963985), .05, 1e-9);
   // Critical values of Student's t, two-sided.
-  EXPECT_NEAR(student_p_value(2.228138852, 10), .05, 1e-9);
-  EXPECT_NEAR(student_p_value(-3.646, 30), .001, 1e-6);
-  EXPECT_NEAR(student_p_value(1, 1), .5, 1e-12);
-  EXPECT_NEAR(student_p_value(3.2905267, 1e7), .001, 1e-8);
+  EXPECT_NEAR(student_two_sided(2.228138852, 10), .05, 1e-9);
+  EXPECT_NEAR(student_two_sided(-3.646, 30), .001, 1e-6);
+  EXPECT_NEAR(student_two_sided(1, 1), .5, 1e-12);
+  EXPECT_NEAR(student_two_sided(3.2905267, 1e7), .001, 1e-8);
   EXPECT_NEAR(z_test(5.5, 5, .25), .045500264, 1e-9);
   // 10 trials at .1: P(>= 3).
   EXPECT_NEAR(binomial_upper_tail(3, 10, .1), .0701908264, 1e-9);

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "converge/student.h"
+#include "base/student.h"
 
 namespace yat {
 

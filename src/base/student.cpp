@@ -1,4 +1,4 @@
-#include "converge/student.h"
+#include "base/student.h"
 
 #include <cmath>
 
@@ -25,7 +25,8 @@ double beta_fraction(double x, double a, double b) {
   return product;
 }
 
-/// I_x(a, b); y = 1 - x, given apart because it may be tiny.
+}  // namespace
+
 double incomplete_beta(double x, double y, double a, double b) {
   if (x <= 0) return 0;
   if (y <= 0) return 1;
@@ -34,8 +35,6 @@ double incomplete_beta(double x, double y, double a, double b) {
   if (x < (a + 1) / (a + b + 2)) return front * beta_fraction(x, a, b) / a;
   return 1 - front * beta_fraction(y, b, a) / b;
 }
-
-}  // namespace
 
 double student_two_sided(double t, double df) {
   const double tt = t * t;
