@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/option_texts.h"
 #include "app/options.h"
@@ -361,6 +363,38 @@ TEST(Report, ReplayNamesWhatIsNotAsUsual) {
             std::string::npos);
   report.transport.roulette_depth = 5;
   EXPECT_NE(replay_commands(report).at(0).find(" --roulette 5 "), std::string::npos);
+}
+
+// Read as a command line, it asks for what the render was asked for.
+TEST(Report, ReplayIsReadAsTheSameSettings) {
+  RenderReport report = report_with_drops();
+  report.tree = TreeChoice::kKd;
+  report.instances = InstanceMode::kShare;
+  report.image_bytes = uint64_t(12) << 20;
+  report.compensation = EnergyCompensation::kOn;
+  report.light_choice = LightChoosing::kUniform;
+  report.light_sampling = LightSampling::kLights;
+  report.transport.roulette_depth = 3;
+  std::istringstream command(replay_commands(report).at(0));
+  const std::vector<std::string> words{std::istream_iterator<std::string>(command), {}};
+  std::vector<const char*> argv;
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  const Arguments read = parse_command_line(int(argv.size()), argv.data()).arguments;
+  EXPECT_EQ(read.scene, report.scene);
+  EXPECT_EQ(read.tree, report.tree);
+  EXPECT_EQ(read.instances, report.instances);
+  EXPECT_EQ(read.image_bytes, report.image_bytes);
+  EXPECT_EQ(read.compensation, report.compensation);
+  EXPECT_EQ(read.light_choice, report.light_choice);
+  EXPECT_EQ(read.light_sampling, report.light_sampling);
+  EXPECT_EQ(read.roulette_depth, report.transport.roulette_depth);
+  EXPECT_EQ(read.integrator, report.integrator);
+  EXPECT_EQ(read.max_depth, report.transport.max_depth);
+  EXPECT_EQ(read.sampler, report.sampler);
+  EXPECT_EQ(read.colour, report.colour);
+  EXPECT_EQ(read.dialect, report.dialect);
+  EXPECT_EQ(read.seed, report.transport.seed);
+  EXPECT_EQ(read.isa, report.isa);
 }
 
 TEST(Report, StatsAreTheRecordOfABenchmark) {

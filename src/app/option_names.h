@@ -100,6 +100,15 @@ inline std::string_view light_choice_name(LightChoosing choosing) {
 inline std::string_view light_sampling_name(LightSampling ways) {
   return name_of(ways, kLightSamplings);
 }
+inline std::string_view tree_name(TreeChoice tree) {
+  return name_of(tree, kTrees);
+}
+inline std::string_view instance_mode_name(InstanceMode instances) {
+  return name_of(instances, kInstanceModes);
+}
+inline std::string_view compensation_name(EnergyCompensation compensation) {
+  return name_of(compensation, kCompensations);
+}
 inline std::string_view dialect_name(Dialect dialect) {
   return name_of(dialect, kDialects);
 }

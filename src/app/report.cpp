@@ -143,7 +143,8 @@ std::string summary_text(const RenderReport& report, Verbosity verbosity) {
 
 namespace {
 
-/// " --light-sampling bsdf": what decides about the ways of paths, where it is not as usual.
+/// " --light-sampling bsdf": what else decides about the scene and the ways of paths, where it is
+/// not as usual.
 std::string unusual_options(const RenderReport& report) {
   std::string text;
   if (report.light_choice != LightChoosing::kAuto)
@@ -154,6 +155,14 @@ std::string unusual_options(const RenderReport& report) {
     text += report.transport.roulette_depth == kNoRoulette
                 ? " --roulette off"
                 : fmt::format(" --roulette {}", report.transport.roulette_depth);
+  if (report.tree != TreeChoice::kFromScene)
+    text += fmt::format(" --tree {}", tree_name(report.tree));
+  if (report.instances != InstanceMode::kAuto)
+    text += fmt::format(" --instances {}", instance_mode_name(report.instances));
+  if (report.image_bytes != ImageStore::kDefaultLimit)
+    text += fmt::format(" --texture-cache {}", report.image_bytes >> 20);
+  if (report.compensation != EnergyCompensation::kAuto)
+    text += fmt::format(" --energy-compensation {}", compensation_name(report.compensation));
   return text;
 }
 

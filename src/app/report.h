@@ -28,6 +28,10 @@ struct RenderReport {
   TransportOptions transport;
   LightSampling light_sampling = LightSampling::kBoth;
   LightChoosing light_choice = LightChoosing::kAuto;
+  TreeChoice tree = TreeChoice::kFromScene;
+  InstanceMode instances = InstanceMode::kAuto;
+  uint64_t image_bytes = ImageStore::kDefaultLimit;  ///< most memory for texels
+  EnergyCompensation compensation = EnergyCompensation::kAuto;
   std::string isa;
   uint32_t lanes = 0, threads = 0;
   PhaseTimes time;

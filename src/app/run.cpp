@@ -71,6 +71,10 @@ RenderReport report_of(const Arguments& arguments, const Loaded& loaded, const T
   report.transport = loaded.plan.transport;
   report.light_sampling = loaded.plan.light_sampling;
   report.light_choice = arguments.light_choice;
+  report.tree = arguments.tree;
+  report.instances = arguments.instances;
+  report.image_bytes = arguments.image_bytes;
+  report.compensation = arguments.compensation;
   report.isa = loaded.plan.kernels->isa;
   report.lanes = loaded.plan.kernels->lanes;
   report.threads = pool.threads();
