@@ -24,6 +24,7 @@
 #include "kernels/dispatch.h"
 #include "measure.h"
 #include "scene/tree_build.h"
+#include "split_arguments.h"
 #if defined(YAT_WITH_EMBREE)
 #include "embree_build.h"
 #endif
@@ -225,15 +226,7 @@ void run_benchmarks(const Options& options) {
 }
 
 int run(int argc, char** argv) {
-  // Options of the benchmark library are its own; all others are ours.
-  std::vector<char*> library = {argv[0]};
-  std::vector<const char*> own = {argv[0]};
-  for (int i = 1; i < argc; ++i)
-    if (std::string_view(argv[i]).starts_with("--benchmark_")) {
-      library.push_back(argv[i]);
-    } else {
-      own.push_back(argv[i]);
-    }
+  SplitArguments words(argc, argv);
   Options options;
   CLI::App app("Building the tree: time, memory and quality, beside Embree's builds.");
   app.footer("--benchmark_... options go to Google Benchmark.");
@@ -260,7 +253,7 @@ int run(int argc, char** argv) {
   app.add_flag("--no-embree", options.no_embree, "yat alone");
   app.add_option("meshes", options.meshes, "PLY files, each placed in a closed room");
   try {
-    app.parse(int(own.size()), own.data());
+    app.parse(int(words.own.size()), words.own.data());
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
@@ -269,8 +262,8 @@ int run(int argc, char** argv) {
     run_table(options);
     return 0;
   }
-  int library_count = int(library.size());
-  benchmark::Initialize(&library_count, library.data());
+  int library_count = int(words.library.size());
+  benchmark::Initialize(&library_count, words.library.data());
   run_benchmarks(options);
   return 0;
 }

@@ -21,6 +21,7 @@
 #include "kernels/dispatch.h"
 #include "measure.h"
 #include "rays_file.h"
+#include "split_arguments.h"
 #include "traversal_table.h"
 #if defined(YAT_WITH_EMBREE)
 #include "embree_build.h"
@@ -145,15 +146,7 @@ void describe(CLI::App& app, Options& options) {
 }
 
 int run(int argc, char** argv) {
-  // Options of the benchmark library are its own; all others are ours.
-  std::vector<char*> library = {argv[0]};
-  std::vector<const char*> own = {argv[0]};
-  for (int i = 1; i < argc; ++i)
-    if (std::string_view(argv[i]).starts_with("--benchmark_")) {
-      library.push_back(argv[i]);
-    } else {
-      own.push_back(argv[i]);
-    }
+  SplitArguments words(argc, argv);
   Options options;
   options.traced.trees = {"auto"};
   options.traced.streams = {0};
@@ -161,7 +154,7 @@ int run(int argc, char** argv) {
   CLI::App app("Traversal alone: recorded rays through the kernels, beside Embree's variants.");
   describe(app, options);
   try {
-    app.parse(int(own.size()), own.data());
+    app.parse(int(words.own.size()), words.own.data());
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
@@ -172,8 +165,8 @@ int run(int argc, char** argv) {
       options.ray_files.empty())
     options.scenes = {"cornell", "sphere"};
   if (options.table || !options.json.empty()) return run_tables(options);
-  int library_count = int(library.size());
-  benchmark::Initialize(&library_count, library.data());
+  int library_count = int(words.library.size());
+  benchmark::Initialize(&library_count, words.library.data());
   std::vector<std::unique_ptr<Prepared>> scenes;
   for_each_scene(options, [&](std::unique_ptr<Prepared> prepared) {
     scenes.push_back(std::move(prepared));
