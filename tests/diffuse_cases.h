@@ -102,7 +102,7 @@ inline std::vector<Case<ScatterParameters>> cases(ScatterParameters<Value>) {
   return all;
 }
 
-/// Not BSDFs: tests/test_split.cpp.
+/// Not BSDFs themselves: composite_cases.h.
 inline std::vector<Case<CoatingParameters>> cases(CoatingParameters<Value>) {
   return {};
 }

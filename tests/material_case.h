@@ -2,6 +2,8 @@
 // What a material is tried with in test_materials.cpp. A new material does not compile there
 // without a function cases(NAMEParameters<Value>).
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <string>
@@ -10,6 +12,12 @@
 #include "soa/fields.h"
 
 namespace yat {
+
+/// The unit vector of this z and azimuth.
+inline glm::dvec3 at_cosine(double cos, double phi) {
+  const double sin = std::sqrt(std::max(0., 1 - cos * cos));
+  return {sin * std::cos(phi), sin * std::sin(phi), cos};
+}
 
 /// f in double precision at local directions, wo.z > 0.
 using Formula = std::function<glm::dvec3(const glm::dvec3& wo, const glm::dvec3& wi)>;

@@ -9,3 +9,5 @@ yat_test(material_renders LABELS render statistics per_isa LIBS yat_wavefront
 yat_test(features LABELS render per_isa LIBS yat_wavefront SOURCES test_features.cpp)
 
 yat_test(split LABELS render statistics per_isa LIBS yat_wavefront SOURCES test_split.cpp)
+yat_test(composites LABELS render statistics per_isa LIBS yat_wavefront glm::glm
+         SOURCES test_composites.cpp)

@@ -2,6 +2,7 @@
 // energy, reciprocity, and the formulas once more in double precision.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -140,11 +141,6 @@ struct Batch {
   }
 };
 
-glm::dvec3 at_cosine(double cos, double phi) {
-  const double sin = std::sqrt(std::max(0., 1 - cos * cos));
-  return {sin * std::cos(phi), sin * std::sin(phi), cos};
-}
-
 /// The cosines of the numeric matrix (B1), both sides.
 constexpr double kCosines[] = {1, .7, .5, 1e-2, 1e-4, 1e-7, 0, -1e-7, -.3, -1};
 
@@ -248,6 +244,56 @@ TEST_P(Materials, ScatteringIsReciprocal) {
         for (uint32_t i = 0; i < n; ++i) {
           const glm::dvec3 f = back.f(i) / energy_scale(c.parameters, there.wo_z[i], there.wi_z[i]);
           expect_near(there.f(i), f, tolerance * glm::length(f) + 1e-7, "f reversed", i);
+        }
+      });
+}
+
+// Single directions have no density, so neither f nor chi-square says anything of them: what a lobe
+// brings in the mean is its reflectance or transmittance instead. The direction that a lobe chose,
+// seen back through it, leads to where it came from and brings as much, but for n^2 where it bends.
+TEST_P(Materials, SingleDirectionsAreReciprocal) {
+  const KernelTable& k = kernels();
+  constexpr uint32_t kLobes = 4096;
+  for_every_case(
+      [&](MaterialKind kind, const MaterialTraits& traits, const auto& c, ParameterView view) {
+        // A pane's two sides differ on purpose (lxs 7.3): PointLightThroughPanes has its figures.
+        if (!(traits.delta || c.mirror) || kind == MaterialKind::kArchitecturalGlass) return;
+        // The way through absorbs by its length, which a single crossing does not turn round.
+        if (kind == MaterialKind::kAbsorbingGlass && c.name == "dark") return;
+        struct Lobe {
+          glm::dvec3 wi{0.0}, mean{0.0};
+        };
+        // [0]: reflected, [1]: through.
+        const auto lobes_from = [&](const glm::dvec3& wo) {
+          Batch b(kLobes);
+          for (uint32_t i = 0; i < kLobes; ++i) {
+            b.set_wo(i, wo);
+            b.u_lobe[i] = (float(i) + .5f) / kLobes;
+            b.u[i] = b.v[i] = .5f;
+          }
+          k.bsdf_sample[uint32_t(kind)](view, b.columns(), kLobes);
+          std::array<Lobe, 2> all;
+          for (uint32_t i = 0; i < kLobes; ++i) {
+            if (b.pdf[i] > 0 || b.f(i) == glm::dvec3(0)) continue;
+            Lobe& to = all[b.wi_z[i] * b.wo_z[i] < 0];
+            to.wi = b.wi(i);
+            to.mean += b.f(i) / double(kLobes);
+          }
+          return all;
+        };
+        for (const double cos : {1., .8, .3, .05, -.9, -.76, -.2}) {
+          const glm::dvec3 wo = at_cosine(cos, .7);
+          const std::array<Lobe, 2> there = lobes_from(wo);
+          for (const bool through : {false, true}) {
+            const Lobe& lobe = there[through];
+            if (lobe.mean == glm::dvec3(0)) continue;
+            const Lobe back = lobes_from(lobe.wi)[through];
+            expect_near(back.wi, wo, 2e-6 / std::abs(cos), "the way back", 0);
+            const double scale = energy_scale(c.parameters, wo.z, lobe.wi.z);
+            // Each mean is known to one of kLobes.
+            expect_near(lobe.mean * scale * scale, back.mean,
+                        2e-3 + 2. / kLobes * std::max(1., scale * scale), "what it brings back", 0);
+          }
         }
       });
 }
