@@ -137,7 +137,7 @@ void add_lights(const KernelTable& table) {
 
 void add_shade(const KernelTable& table) {
   for (uint32_t kind = 0; kind < kMaterialKinds; ++kind) {
-    if (material_traits(MaterialKind(kind)).splits) continue;  // their children are shaded
+    if (material_traits(MaterialKind(kind)).splits) continue;  // add_split
     const std::string name = std::string("shade/") + kMaterialNames[kind];
     const auto kernel = table.shade[kind];
     if (!kernel) {
@@ -175,6 +175,52 @@ void add_shade(const KernelTable& table) {
               [&] { output.path_count = output.shadow_count = output.finished_count = 0; },
               [&] { kernel(input, in.plan.transport, output, drops, kRows); });
         });
+  }
+}
+
+/// Materials made of others: matte's rows on their way to both children, which are shaded as what
+/// they are.
+void add_split(const KernelTable& table) {
+  for (uint32_t kind = 0; kind < kMaterialKinds; ++kind) {
+    if (!material_traits(MaterialKind(kind)).splits) continue;
+    const std::string name = std::string("split/") + kMaterialNames[kind];
+    if (!table.split[kind]) {
+      add_missing(name, table);
+      continue;
+    }
+    add_benchmark(name, table, [&table, kind](benchmark::State& state) {
+      const KernelInputs& in = inputs_for(table, kAllLights);
+      const MaterialInputs own(in, MaterialKind(kind));
+      if (!own.rows) return no_rows(state);
+      const Surface<ConstColumn> surfaces = own.rows->surfaces.view();
+      const PathState<ConstColumn> paths = own.rows->paths.view();
+      AlignedArray<float> share(kRows), left(kRows), u(kRows);
+      AlignedArray<uint32_t> first(kRows), second(kRows), child(kRows), order[2];
+      for (AlignedArray<uint32_t>& rows : order) rows.resize(kRows);
+      Table<Surface> surfaces_out(kRows);
+      Table<PathState> paths_out(kRows);
+      Table<Coat> coats(kRows), coats_out(kRows);
+      const bool coating = MaterialKind(kind) == MaterialKind::kCoating;
+      time_rows(state, kRows, [&] {
+        table.split[kind](own.parameters, surfaces, false, share.data(), first.data(),
+                          second.data(), kRows);
+        table.choose_child(share.data(), own.rows->randoms.view().lobe, child.data(), left.data(),
+                           kRows);
+        if (coating) table.coats(own.parameters, surfaces, coats.columns(), kRows);
+        uint32_t taken[2] = {};
+        for (uint32_t i = 0; i < kRows; ++i) {
+          const uint32_t c = child[i];
+          order[c][taken[c]++] = i;
+        }
+        for (uint32_t c = 0; c < 2; ++c) {
+          table.take_rows(surfaces, paths, left.data(), order[c].data(), false,
+                          surfaces_out.columns(), paths_out.columns(), u.data(), taken[c]);
+          if (!coating) continue;
+          table.weigh_child(share.data(), order[c].data(), c, paths_out.columns(), taken[c]);
+          if (c) table.take_coats(coats.view(), order[c].data(), coats_out.columns(), taken[c]);
+        }
+      });
+    });
   }
 }
 
@@ -234,6 +280,7 @@ void add_shading_benchmarks(const KernelTable& table) {
   add_environment_benchmark(table);
   add_lights(table);
   add_shade(table);
+  add_split(table);
   add_accumulate(table);
 }
 
