@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -132,6 +133,42 @@ TEST_P(Renders, GreyHasTheSameBitsInBothColourModes) {
     return render_film(scene, make_plan(scene, kernels(), options), 0, 16);
   };
   EXPECT_TRUE(same_bits(film(ColourMode::kBands), film(ColourMode::kRgb)));
+}
+
+// A lamp shines from its front alone: its back is a surface of the material that came last before
+// it, here lit by a point 2 above it, (Kd / pi) (1 / 4). Which side the back is, the order of the
+// corners says, or ReverseOrientation.
+TEST_P(Renders, TheBackOfALampShowsTheLastMaterial) {
+  const std::string up = quad_text("-1 -1 0", "1 -1 0", "1 1 0", "-1 1 0"),
+                    down = quad_text("-1 -1 0", "-1 1 0", "1 1 0", "1 -1 0");
+  const auto seen = [&](const std::string& lamp) {
+    const std::string text =
+        view_text("2 -2 1", "0 0 0", .02, 2, 2) + matte_text(".1 .1 .1") +
+        sphere_text("9 9 9", .1) + "AttributeBegin\n" + light_text("1 2 4") +
+        matte_text(".8 .4 .2") + lamp +
+        "AttributeEnd\nLightSource \"point\" \"point from\" [0 0 2]\nWorldEnd\n";
+    const Scene scene = compile_text(text, kernels(), ColourMode::kRgb);
+    PlanOptions options;
+    options.max_depth = 1;
+    std::vector<double> means[3];
+    for (options.seed = 0; options.seed < kSeeds; ++options.seed) {
+      const std::vector<float> rgb =
+          render_film(scene, make_plan(scene, kernels(), options), 0, 64).resolve();
+      glm::dvec3 sum(0.0);
+      for (size_t i = 0; i < rgb.size(); ++i) sum[int(i % 3)] += double(rgb[i]) * 3;
+      for (int k = 0; k < 3; ++k) means[k].push_back(sum[k] / double(rgb.size()));
+    }
+    return std::array{estimate(means[0]), estimate(means[1]), estimate(means[2])};
+  };
+  const glm::dvec3 kd(.8, .4, .2), radiance(1, 2, 4);
+  for (const std::string& lamp : {down, "ReverseOrientation\n" + up}) {
+    const std::array<Estimate, 3> back = seen(lamp);
+    for (int k = 0; k < 3; ++k) expect_value(back[size_t(k)], kd[k] / (4 * std::numbers::pi));
+  }
+  // From the front both are seen.
+  const std::array<Estimate, 3> front = seen(up);
+  for (int k = 0; k < 3; ++k)
+    expect_value(front[size_t(k)], radiance[k] + kd[k] / (4 * std::numbers::pi));
 }
 
 TEST_P(Renders, SphereLightOverAnInfinitePlane) {

@@ -1,6 +1,7 @@
 // Patterns and noise of every instruction set: against the oracle's doubles where a random place
 // falls, and against what their definitions say of the whole (lxs 8.4, 8.5).
 
+#include "chi2.h"
 #include "kernels/textures/all.h"
 #include "per_isa.h"
 #include "texture_steps.h"
@@ -87,6 +88,55 @@ TEST_P(TexturePatterns, NoiseIsZeroOnItsLattice) {
   corners.constants<NoiseParameters>([](uint32_t) { return NoiseParameters<Value>{1, .5f}; });
   for (const uint32_t form : {0, 1})
     EXPECT_EQ(share_of(corners.run(kernels(), StepKind::kNoise, form, 1, 3), 0), 1) << form;
+}
+
+TEST_P(TexturePatterns, WindIsTheProductOfTwoNoises) {
+  TextureRows rows(kRows), slow(kRows), fast(kRows);
+  for (int c = 0; c < 3; ++c) {
+    const std::vector<float> at = rows.input(-40, 40);
+    fast.input(0, 0) = at;
+    std::vector<float>& tenth = slow.input(0, 0);
+    for (size_t i = 0; i < at.size(); ++i) tenth[i] = .1f * at[i];
+  }
+  const auto octaves = [](float count) {
+    return [count](uint32_t) { return NoiseParameters<Value>{count, .5f}; };
+  };
+  rows.constants<NoiseParameters>(octaves(1));  // has no say
+  slow.constants<NoiseParameters>(octaves(3));
+  fast.constants<NoiseParameters>(octaves(6));
+  const auto wind = rows.run(kernels(), StepKind::kNoise, 2, 1, 3),
+             gusts = slow.run(kernels(), StepKind::kNoise, 0, 1, 3),
+             waves = fast.run(kernels(), StepKind::kNoise, 0, 1, 3);
+  uint32_t strong = 0;
+  for (uint32_t i = 0; i < kRows; ++i) {
+    const float product = std::fabs(gusts.found[0][i]) * waves.found[0][i];
+    ASSERT_NEAR(wind.found[0][i], product, 1e-6f + 1e-5f * std::fabs(product)) << i;
+    strong += std::fabs(product) > .01f;
+  }
+  EXPECT_GT(strong, kRows / 2);
+}
+
+TEST_P(TexturePatterns, HarlequinHasOneColourPerPrimitive) {
+  TextureRows rows(kRows);
+  rows.constants<HarlequinParameters>([](uint32_t) { return HarlequinParameters<Value>{0}; });
+  // Primitives one after the other, each of them in two rows that are far apart.
+  constexpr uint32_t kHalf = kRows / 2;
+  for (uint32_t i = 0; i < kRows; ++i) rows.surfaces().columns().prim[i] = i % kHalf;
+  const auto out = rows.run(kernels(), StepKind::kHarlequin, 0, 3, 3);
+  EXPECT_LT(TextureRows::share_off(out, 1e-6), 1e-9);
+  SquareHistogram pairs[3]{SquareHistogram(16), SquareHistogram(16), SquareHistogram(16)},
+      neighbours(16);
+  // 256 levels; a hair below the next cell.
+  const auto at = [&](uint32_t i, uint32_t c) { return double(out.found[c][i]) * (255. / 256); };
+  for (uint32_t i = 0; i < kHalf; ++i) {
+    for (uint32_t c = 0; c < 3; ++c) {
+      ASSERT_EQ(out.found[c][i], out.found[c][i + kHalf]) << i;
+      pairs[c].add(at(i, c), at(i, (c + 1) % 3));
+    }
+    if (i) neighbours.add(at(i - 1, 0), at(i, 0));
+  }
+  for (const SquareHistogram& pair : pairs) EXPECT_GT(pair.p_value(), sidak_level(12));
+  EXPECT_GT(neighbours.p_value(), sidak_level(12));
 }
 
 TEST_P(TexturePatterns, MarbleStaysWithinItsColours) {

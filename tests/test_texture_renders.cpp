@@ -166,6 +166,42 @@ TEST_P(TextureRenders, BumpedSlopeIsATiltedWall) {
   EXPECT_NEAR(mean(bent) / mean(flat), (1 - .15) / std::sqrt(1.25), 2e-3);
 }
 
+/// One colour everywhere is one normal everywhere, 2 rgb - 1 along dp/du, dp/dv and the wall's own.
+TEST_P(TextureRenders, NormalMapsTurnAWall) {
+  const glm::dvec3 light = glm::normalize(glm::dvec3(.3, .2, 1));
+  const auto mean = [&](const std::string& material, const std::string& uv) {
+    const std::string text =
+        "LookAt 0 0 5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" [10]\nPixelFilter "
+        "\"box\"\nFilm \"fleximage\" \"integer xresolution\" [4] \"integer yresolution\" "
+        "[4]\nWorldBegin\n" +
+        material + uv_quad_text("-1 -1 0", "1 -1 0", "1 1 0", "-1 1 0", uv) +
+        "LightSource \"distant\" \"point from\" [.3 .2 1] \"point to\" [0 0 0]\nWorldEnd\n";
+    const Scene scene = compile_in_folder(text, kernels());
+    PlanOptions options;
+    options.max_depth = 1;
+    double sum = 0;
+    for (const float v : render_film(scene, make_plan(scene, kernels(), options), 0, 4).resolve())
+      sum += double(v);
+    return sum;
+  };
+  const std::string grey = "Material \"matte\" \"color Kd\" [.5 .5 .5]",
+                    along_x = "0 0 1 0 1 1 0 1", along_y = "0 0 0 -1 1 -1 1 0";
+  const double flat = mean(grey + "\n", along_x);
+  for (const glm::dvec3& n :
+       {glm::dvec3(-.6, 0, .8), glm::dvec3(0, .6, .8), glm::dvec3(.48, -.36, .8)}) {
+    write_image("texture_renders", "normal.exr", 4, 4, 3, OIIO::TypeDesc::FLOAT,
+                [&](int, int, int c) { return float(.5 * n[c] + .5); });
+    const std::string bent =
+        "Texture \"n\" \"float\" \"normalmap\" \"string filename\" "
+        "[\"normal.exr\"]\n" +
+        grey + " \"texture bumpmap\" [\"n\"]\n";
+    EXPECT_NEAR(mean(bent, along_x) / flat, glm::dot(n, light) / light.z, 1e-4);
+    // u upwards, v to the left... of it: x and y change places, one turned round.
+    const glm::dvec3 turned = glm::dvec3(-n.y, n.x, n.z);
+    EXPECT_NEAR(mean(bent, along_y) / flat, glm::dot(turned, light) / light.z, 1e-4);
+  }
+}
+
 TEST_P(TextureRenders, SameBitsForAnyBatchAndTile) {
   const Scene scene = compile_in_folder(room_of_textures(), kernels());
   PlanOptions options;
