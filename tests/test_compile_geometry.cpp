@@ -238,8 +238,12 @@ TEST_F(CompileGeometry, Planes) {
   shape(plugin("plane", {numbers(ParameterType::kNormal, "n", {1, 0, 1})}),
         translate(0, 0, 5) * scale(.5, 1, 1));
   shape(plugin("plane", {})).reverse_orientation = true;
+  // As the scenes of YART, whose shape it is, spell it.
+  shape(plugin("plane", {numbers(ParameterType::kNormal, "N", {0, 1, 0})}));
   const Scene scene = compile();
-  ASSERT_EQ(scene.planes.size(), 2u);
+  EXPECT_EQ(messages.size(), 1u) << "only that there is no light: " << all_said();
+  ASSERT_EQ(scene.planes.size(), 3u);
+  EXPECT_EQ(scene.planes.row(2).normal_y, 1);
   const auto p = scene.planes.row(0);
   EXPECT_NEAR(p.normal_x, 2 / std::sqrt(5.), 1e-6);
   EXPECT_NEAR(p.normal_z, 1 / std::sqrt(5.), 1e-6);

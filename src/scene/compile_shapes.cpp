@@ -68,11 +68,13 @@ std::vector<std::string_view> all_types() {
 
 bool read_plane(Parameters& p, CompiledShape& shape) {
   shape.kind = CompiledShape::Kind::kPlane;
-  shape.normal = p.triple("n", ParameterType::kNormal, shape.normal);
+  // YART's scenes write N, where names match in any case.
+  const char* const name = p.given("N") && !p.given("n") ? "N" : "n";
+  shape.normal = p.triple(name, ParameterType::kNormal, shape.normal);
   p.accept({"name"});
   const double length = glm::length(shape.normal);
   if (length > 0 && std::isfinite(length)) return true;
-  p.diagnostics().error(p.loc("n"), "the plane's normal \"n\" is zero: left out");
+  p.diagnostics().error(p.loc(name), "the plane's normal \"n\" is zero: left out");
   return false;
 }
 
