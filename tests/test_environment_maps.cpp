@@ -112,6 +112,20 @@ TEST_P(LightMaps, LatLongLiesAsTheFormatSays) {
   EXPECT_NEAR(seen(scene, {std::cos(0.), 0, 1e-9}).x * 255, (48 + 63 + 64 + 79) / 4., .01);
 }
 
+// As that of textures does: LuxRender raises the spectrum of the stored colour.
+TEST_P(LightMaps, GammaActsOnBands) {
+  const std::string picture = write_ppm("saturated.ppm", 2, 1, {220, 60, 20, 220, 60, 20});
+  for (const ColourMode mode : {ColourMode::kBands, ColourMode::kRgb}) {
+    const Scene scene =
+        compile_text(view_text("0 0 0", "1 0 0", 50, 8, 8) +
+                         image_text(picture, "\"float gamma\" [2.2]") + "WorldEnd\n",
+                     kernels(), mode);
+    const glm::dvec3 bands = to_bands(glm::dvec3(220, 60, 20) / 255., colour_model(mode).light);
+    const glm::dvec3 found = seen(scene, {1, 0, 0});
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[k], std::pow(bands[k], 2.2), 1e-6) << k;
+  }
+}
+
 TEST_P(LightMaps, TheTransformTurnsThePicture) {
   const std::string picture = numbered_picture("numbered.ppm", 16, 8);
   const Scene plain = lit_by(image_text(picture));
@@ -132,6 +146,36 @@ TEST_P(LightMaps, TheTransformTurnsThePicture) {
 }
 
 // lxs 6.4: r = acos(-x) / 2 pi; the middle of the picture is -x.
+// YART shows a picture as it is, whatever L, gain, gamma and the transform say, with its middle
+// column where LuxRender's seam is (lxs 12.5).
+TEST_P(LightMaps, YartsPictureIsHalfATurnFromLuxRenders) {
+  const std::string picture =
+      image_text(numbered_picture("numbered.ppm", 16, 8), "\"color L\" [3 2 1] \"float gain\" [5]");
+  const std::string turned =
+      "Rotate 90 0 1 0\n" +
+      image_text(numbered_picture("numbered.ppm", 16, 8),
+                 "\"color L\" [3 2 1] \"float gain\" [5] \"float gamma\" [2.2]");
+  const auto by_yart = [&](const std::string& light) {
+    Diagnostics diagnostics([](Severity severity, std::string_view line) {
+      if (severity != Severity::kNote) ADD_FAILURE() << line;
+    });
+    return compile_description(
+        parse_scene(view_text("0 -3 0", "0 0 0", 50, 8, 8) + light + "WorldEnd\n", "test.lxs", ".",
+                    diagnostics, false, Dialect::kYart),
+        kernels(), diagnostics, 0, 0, ColourMode::kRgb);
+  };
+  const Scene plain = by_yart(picture), rotated = by_yart(turned);
+  for (uint32_t y = 0; y < 8; ++y)
+    for (uint32_t x = 0; x < 16; ++x) {
+      const glm::dvec3 w = latlong_direction((x + .5) / 16, (y + .5) / 8);
+      const double texel = y * 16 + (x + 8) % 16;
+      for (const Scene* scene : {&plain, &rotated}) {
+        EXPECT_NEAR(seen(*scene, w).x * 255, texel, .01) << x << " " << y;
+        EXPECT_NEAR(seen(*scene, w).z * 255, 100, .01) << x << " " << y;
+      }
+    }
+}
+
 TEST_P(LightMaps, AngularLiesAsTheFormatSays) {
   const Scene scene = lit_by(
       image_text(numbered_picture("angular.ppm", 15, 15), "\"string mapping\" [\"angular\"]"));

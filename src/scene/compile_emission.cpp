@@ -36,7 +36,7 @@ glm::dmat3 axes_of(const LightRow<Value>& light, const EmissionRow<Value>& row) 
 LightMapRow<Value> add_distribution(const LightPicture& picture, const ColourModel& colour,
                                     LightTables& tables) {
   LightMapRow<Value> map = *make_light_map(glm::dmat3(1.));
-  add_texels(picture, MapLayout::kLatLong, colour, tables, map);
+  add_texels(picture, MapLayout::kLatLong, tables, map);
   const double mean = picture_cells(map, tables, glm::dvec3(1.), colour.film).average();
   for (size_t i = size_t(map.texels) * kTexelWords; i < tables.texels.size(); ++i)
     tables.texels[i] = float(double(tables.texels[i]) / (4 * mean));
@@ -76,7 +76,7 @@ LightColor EmissionCompiler::color(Parameters& p, EmissionLook& look) {
 }
 
 uint32_t EmissionCompiler::distribution(Parameters& p) {
-  std::optional<LightPicture> picture = read_distribution(p, description_);
+  std::optional<LightPicture> picture = read_distribution(p, colour_.light, description_);
   if (!picture) return kNone;
   const auto shines = [](const glm::vec3& c) { return c.x > 0 || c.y > 0 || c.z > 0; };
   if (std::none_of(picture->texels.begin(), picture->texels.end(), shines)) {

@@ -40,13 +40,13 @@ void compile_infinite(LightContext& light) {
   // The table by which directions are drawn has the size that yat gives it.
   p.accept({"imapmaxresolution"});
   if (name.empty()) return light.add(light_row(LightKind::kConstant, radiance));
-  const auto picture = read_light_picture(p, name, gamma, light.description);
+  const auto picture = read_light_picture(p, name, gamma, light.colour.light, light.description);
   if (!picture) return light.add(light_row(LightKind::kConstant, radiance));
   auto map = make_light_map(to_world);
   if (!map)
     return p.diagnostics().error(
         light.loc(), fmt::format("the transform of {} cannot be inverted: left out", p.what()));
-  add_texels(*picture, layout, light.colour, light.tables, *map);
+  add_texels(*picture, layout, light.tables, *map);
   const CellMeans cells = picture_cells(*map, light.tables, radiance, light.colour.film);
   const double mean = cells.average();
   LightRow<Value> row = light_row(LightKind::kImage, mean > 0 ? radiance : glm::dvec3(0.));

@@ -41,7 +41,7 @@ bool add_map(LightContext& light, const LightPicture& picture, LightRow<Value>& 
                                                          light.p.what()));
     return false;
   }
-  add_texels(picture, MapLayout::kLatLong, light.colour, light.tables, *map);
+  add_texels(picture, MapLayout::kLatLong, light.tables, *map);
   row.c_x = row_bits(light.tables.maps.size());
   light.tables.maps.push_back(*map);
   return true;
@@ -84,7 +84,8 @@ void compile_point(LightContext& light) {
   Parameters& p = light.p;
   const glm::dvec3 intensity = light_intensity(light, 4 * kPi);
   const glm::dvec3 from = p.triple("from", ParameterType::kPoint, glm::dvec3(0.));
-  const std::optional<LightPicture> picture = read_distribution(p, light.description);
+  const std::optional<LightPicture> picture =
+      read_distribution(p, light.colour.light, light.description);
   LightRow<Value> row = light_row(LightKind::kPoint, intensity);
   // YART's points do not fall off.
   const bool by_yart = light.description.dialect == Dialect::kYart;
@@ -143,7 +144,8 @@ void compile_projection(LightContext& light) {
   const double fov = degrees(light, "fov", 45, 1e-3, 179.9);
   const std::string map_name = p.text("mapname", "");
   std::optional<LightPicture> picture;
-  if (!map_name.empty()) picture = read_light_picture(p, map_name, 1, light.description);
+  if (!map_name.empty())
+    picture = read_light_picture(p, map_name, 1, light.colour.light, light.description);
   if (!picture) picture = LightPicture{1, 1, {glm::vec3(1.f)}};
   LightRow<Value> row = light_row(LightKind::kProjection, intensity);
   if (!place(light, transform_point(light.entry.to_world, glm::dvec3(0.)), row) ||

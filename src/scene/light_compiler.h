@@ -56,8 +56,10 @@ void compile_infinite(LightContext& light);
 void compile_sun(LightContext& light);
 void compile_sky(LightContext& light);
 
-/// "mapname" of a light; empty, and an error, if it cannot be read.
+/// "mapname" of a light, by `basis`; empty, and an error, if it cannot be read. The gamma acts on
+/// the bands of the stored colours, as that of textures does (kernels/textures/bands.h).
 std::optional<LightPicture> read_light_picture(Parameters& p, const std::string& name, double gamma,
+                                               const BandBasis& basis,
                                                const Description& description);
 /// "iesname" of a light as a lat-long picture of its intensities; empty, and reported, if it cannot
 /// be read.
@@ -65,6 +67,7 @@ std::optional<LightPicture> read_ies(Parameters& p, const std::string& name, boo
                                      const Description& description);
 /// What "iesname", "mapname" and "flipz" of a light say of directions; empty if they say nothing,
 /// or nothing that can be read.
-std::optional<LightPicture> read_distribution(Parameters& p, const Description& description);
+std::optional<LightPicture> read_distribution(Parameters& p, const BandBasis& basis,
+                                              const Description& description);
 
 }  // namespace yat

@@ -47,17 +47,15 @@ std::optional<LightMapRow<Value>> make_light_map(const glm::dmat3& light_to_worl
   return map;
 }
 
-void add_texels(const LightPicture& picture, MapLayout layout, const ColourModel& colour,
-                LightTables& tables, LightMapRow<Value>& map) {
+void add_texels(const LightPicture& picture, MapLayout layout, LightTables& tables,
+                LightMapRow<Value>& map) {
   map.layout = uint32_t(layout);
   map.texels = uint32_t(tables.texels.size() / kTexelWords);
   map.width = picture.width;
   map.height = picture.height;
   tables.texels.reserve(tables.texels.size() + picture.texels.size() * kTexelWords);
-  for (const glm::vec3& texel : picture.texels) {
-    const glm::dvec3 bands = to_bands(glm::dvec3(texel), colour.light);
-    for (const double band : {bands.x, bands.y, bands.z, 0.}) tables.texels.push_back(float(band));
-  }
+  for (const glm::vec3& bands : picture.texels)
+    for (const float band : {bands.x, bands.y, bands.z, 0.f}) tables.texels.push_back(band);
 }
 
 glm::dvec3 texel_colour(const LightMapRow<Value>& map, const float* texels, double x, double y,

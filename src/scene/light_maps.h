@@ -20,7 +20,7 @@ struct LightTables {
   std::vector<float> cells;
 };
 
-/// A picture, linear Rec.709, rows from the top.
+/// A picture in bands of lights, rows from the top.
 struct LightPicture {
   uint32_t width = 0, height = 0;
   std::vector<glm::vec3> texels;
@@ -30,9 +30,9 @@ struct LightPicture {
 /// Empty if the matrix cannot be inverted.
 std::optional<LightMapRow<Value>> make_light_map(const glm::dmat3& light_to_world);
 
-/// Appends the picture's texels as bands of lights.
-void add_texels(const LightPicture& picture, MapLayout layout, const ColourModel& colour,
-                LightTables& tables, LightMapRow<Value>& map);
+/// Appends the picture's texels.
+void add_texels(const LightPicture& picture, MapLayout layout, LightTables& tables,
+                LightMapRow<Value>& map);
 
 /// Bands of the map's picture in a direction of light space (unit), bilinear as kernels look it up.
 glm::dvec3 map_colour(const LightMapRow<Value>& map, const float* texels, const glm::dvec3& l);

@@ -35,6 +35,7 @@ LightPicture halved(const LightPicture& from) {
 }  // namespace
 
 std::optional<LightPicture> read_light_picture(Parameters& p, const std::string& name, double gamma,
+                                               const BandBasis& basis,
                                                const Description& description) {
   const SourceLoc loc = p.loc("mapname");
   const std::string path = find_data_file(name, loc, description, p.diagnostics());
@@ -56,15 +57,19 @@ std::optional<LightPicture> read_light_picture(Parameters& p, const std::string&
   const auto* texels = static_cast<const float*>(image.localpixels());
   picture.texels.resize(size_t(picture.width) * picture.height);
   uint64_t broken = 0;
-  const auto decode = [&](float texel) {
-    const float value = gamma == 1 ? texel : float(std::pow(double(texel), gamma));
-    if (value >= 0 && std::isfinite(value)) return value;
+  const auto usable = [&](float value) {
+    if (value >= 0 && std::isfinite(value)) return double(value);
     ++broken;
-    return 0.f;
+    return 0.;
+  };
+  const auto raised = [&](double band) {
+    return gamma == 1 ? band : usable(float(std::pow(band, gamma)));
   };
   for (size_t i = 0; i < picture.texels.size(); ++i) {
     const float* texel = texels + i * channels;
-    picture.texels[i] = {decode(texel[0]), decode(texel[green]), decode(texel[blue])};
+    const glm::dvec3 stored(usable(texel[0]), usable(texel[green]), usable(texel[blue]));
+    const glm::dvec3 bands = to_bands(stored, basis);
+    picture.texels[i] = {raised(bands.x), raised(bands.y), raised(bands.z)};
   }
   if (broken)
     p.diagnostics().warning(
@@ -78,7 +83,8 @@ std::optional<LightPicture> read_light_picture(Parameters& p, const std::string&
   return picture;
 }
 
-std::optional<LightPicture> read_distribution(Parameters& p, const Description& description) {
+std::optional<LightPicture> read_distribution(Parameters& p, const BandBasis& basis,
+                                              const Description& description) {
   const std::string map_name = p.text("mapname", ""), ies_name = p.text("iesname", "");
   const bool flip_z = p.flag("flipz", false);
   if (!ies_name.empty()) {
@@ -89,7 +95,7 @@ std::optional<LightPicture> read_distribution(Parameters& p, const Description& 
     return read_ies(p, ies_name, flip_z, description);
   }
   if (map_name.empty()) return std::nullopt;
-  return read_light_picture(p, map_name, 1, description);
+  return read_light_picture(p, map_name, 1, basis, description);
 }
 
 }  // namespace yat
