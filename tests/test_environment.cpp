@@ -316,6 +316,27 @@ TEST_P(Environment, ASceneOfSkyAlone) {
   }
 }
 
+// LuxRender's two lights with an image differ in how they are sampled; yat samples both by the
+// image (DirectionsFollowTheirDensity).
+TEST_P(Environment, InfiniteSampleIsInfinite) {
+  const std::string picture = uneven_picture("infinitesample.ppm", 32, 16);
+  const auto film = [&](const std::string& light) {
+    const Scene scene = compile_text(
+        view_text("0 -3 .6", "0 0 0", 50, 24, 16) + matte_text(".7 .6 .5") +
+            quad_text("-2 -2 -.5", "2 -2 -.5", "2 2 -.5", "-2 2 -.5") + sphere_text("0 0 0", .4) +
+            "AttributeBegin\n" + turned_text() + "LightSource " + light +
+            " \"string mapname\" [\"" + picture + "\"] \"float gain\" [3] \"float gamma\" [2]\n" +
+            "AttributeEnd\nWorldEnd\n",
+        kernels());
+    return render_film(scene, make_plan(scene, kernels(), {}), 0, 4);
+  };
+  const Film infinite = film("\"infinite\"");
+  EXPECT_TRUE(same_bits(infinite, film("\"infinitesample\" \"integer imapmaxresolution\" [64]")));
+  double sum = 0;
+  for (const float value : infinite.resolve()) sum += double(value);
+  EXPECT_GT(sum, 0);
+}
+
 TEST_P(Environment, TheSameBitsForAnyThreadsAndBatches) {
   const Scene scene = compile_text(open_air_text(24, 16), kernels());
   const Plan plan = make_plan(scene, kernels(), {});

@@ -315,6 +315,21 @@ TEST_F(Program, TheTimeLimitEndsARenderWithoutEnd) {
   EXPECT_NE(result.err.find("time is up: the picture holds "), std::string::npos) << result.err;
 }
 
+TEST_F(Program, TheFilmsTimeLimitHoldsWhereNoneIsGiven) {
+  std::string text(kScene);
+  text.insert(text.find(" \"string filename\""), " \"integer halttime\" [1]");
+  write_whole(folder_ / "halt.lxs", text);
+  const ProgramResult result = yat({"render", "halt.lxs", "-o", "t.png", "--progress", "none"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(has("t.png"));
+  EXPECT_NE(result.err.find("time is up: the picture holds "), std::string::npos) << result.err;
+  // The command line's limit outranks it.
+  const ProgramResult few =
+      yat({"render", "halt.lxs", "--spp", "2", "-o", "s.png", "--progress", "none"});
+  EXPECT_EQ(few.code, 0) << few.err;
+  EXPECT_EQ(few.err.find("time is up"), std::string::npos) << few.err;
+}
+
 TEST_F(Program, InterruptWritesThePictureSoFar) {
   for (const int signal : {SIGINT, SIGTERM}) {
     fs::remove(folder_ / "i.png");
