@@ -79,6 +79,8 @@ TEST(YartOptions, WhatDoesNothingIsRemarkedOn) {
             "warning: -s counts with -pathtracer only");
   EXPECT_EQ(parse({"-i", "s.lxs", "-o", "o.png", "-pathtracer", "-d", "9"}).remarks,
             "warning: -d does nothing with -pathtracer: -tr is its depth");
+  EXPECT_EQ(parse({"-i", "s.lxs", "-o", "o.png", "-pathtracer", "-aa", "4"}).remarks,
+            "warning: -aa does nothing with -pathtracer: -s is its number of paths");
   const YartArguments quiet = parse({"-i", "s.lxs", "-o", "o.png", "-hb", "-b", "2"});
   EXPECT_FALSE(quiet.heart_beat);
   EXPECT_EQ(quiet.remarks, "warning: -hb does nothing with -b");
@@ -95,8 +97,6 @@ TEST(YartOptions, MistakesNameTheFlag) {
   EXPECT_EQ(trouble({"-i", "s.lxs", "-d", "-1"}), "yat: -d -1: give a number above 0");
   EXPECT_EQ(trouble({"-i", "s.lxs", "-b"}), "yat: -b: its value is missing: -b N");
   EXPECT_EQ(trouble({"-i", "s.lxs", "-i", "t.lxs"}), "yat: -i is given twice, leave one out");
-  EXPECT_EQ(trouble({"-i", "s.lxs", "-pathtracer", "-aa", "4"}),
-            "yat: -aa is for the ray tracer: leave out -pathtracer, or give -s instead");
   EXPECT_EQ(trouble({"-i", "s.lxs", "-g", "-b", "2"}), "yat: -g and -b exclude each other");
   EXPECT_EQ(trouble({"-i", "s.lxs", "-t=3"}), "yat: -t=3: this flag has no value");
   EXPECT_NE(trouble({"-i", "s.lxs", "--sample", "3"}).find("did you mean \"--samples\"?"),

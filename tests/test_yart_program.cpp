@@ -72,6 +72,18 @@ TEST_F(YartProgram, ABenchmarkPrintsEachRunAndItsSums) {
   EXPECT_TRUE(fs::exists(folder_ / "b.png"));
 }
 
+TEST_F(YartProgram, AllFlagsTogetherRender) {
+  const ProgramResult run =
+      yat({"-i", "scene.lxs", "-o",  "all.png", "-pathtracer", "-s", "2",  "-tr", "10", "-aa", "4",
+           "-d", "2",         "-bs", "32",      "-th",         "2",  "-t", "-hb", "-b", "3"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("Total runs: 3"), std::string::npos) << run.out;
+  EXPECT_EQ(run.out.find(".."), run.out.find("... ")) << "no heart beat: " << run.out;
+  for (const char* idle : {"-aa does nothing", "-d does nothing", "-hb does nothing"})
+    EXPECT_NE(run.err.find(idle), std::string::npos) << run.err;
+  EXPECT_TRUE(fs::exists(folder_ / "all.png"));
+}
+
 TEST_F(YartProgram, HeartBeatsAreFinishedBuckets) {
   // 64 x 48 in buckets of 20: 4 x 3.
   for (const char* threads : {"1", "2"}) {
@@ -98,6 +110,57 @@ TEST_F(YartProgram, TheStampIsABarOfThirtyRowsWithTimeAndTriangles) {
     EXPECT_NE(run.err.find("Render time: "), std::string::npos);
   else
     EXPECT_GT(brightest, .8f);
+}
+
+/// A wall of Kd .5, lit straight on, at the end of a corridor along +y that has mirrors as its
+/// sides and glass that bends nothing across it. Looks in the direction (x, y).
+std::string corridor_text(double x, double y, int panes) {
+  const auto quad = [](const std::string& points) {
+    return "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [" + points +
+           "]\n";
+  };
+  const std::string mirror = "Material \"mirror\"\n";
+  std::string text = "LookAt 0 0 0  " + std::to_string(x) + " " + std::to_string(y) +
+                     " 0  0 0 1\nCamera \"perspective\" \"float fov\" [1]\n"
+                     "Film \"fleximage\" \"integer xresolution\" [4] \"integer yresolution\" "
+                     "[4]\nWorldBegin\n";
+  text += mirror + quad("1 -1 -5  1 20 -5  1 20 5  1 -1 5") + mirror +
+          quad("-1 -1 -5  -1 20 -5  -1 20 5  -1 -1 5");
+  for (int i = 0; i < panes; ++i) {
+    const std::string at = " " + std::to_string(i + 1) + " ";
+    text += "Material \"glass\" \"float index\" [1]\n" +
+            quad("-1" + at + "-5  1" + at + "-5  1" + at + "5  -1" + at + "5");
+  }
+  // By YART's rules a point light does not fall off.
+  return text + "Material \"matte\" \"color Kd\" [.5 .5 .5]\n" +
+         quad("-1 10 -5  1 10 -5  1 10 5  -1 10 5") +
+         "LightSource \"point\" \"point from\" [0 9.5 0] \"float power\" [0] \"float efficacy\" "
+         "[0]\n"
+         "WorldEnd\n";
+}
+
+TEST_F(YartProgram, RaysAreReflectedAndRefractedAsOftenAsTheirDepthSays) {
+  const auto seen = [&](const std::string& text, int depth) {
+    write_whole(folder_ / "corridor.lxs", text);
+    const ProgramResult run =
+        yat({"-i", "corridor.lxs", "-o", "c.png", "-aa", "1", "-d", std::to_string(depth)});
+    EXPECT_EQ(run.code, 0) << run.err;
+    return double(picture("c.png").getchannel(2, 2, 0, 1));
+  };
+  // (.5 / pi)^(1 / 2.2), where light reaches the wall head-on.
+  constexpr double kLit = .4337;
+  for (const int turns : {1, 2, 3}) {
+    SCOPED_TRACE(turns);
+    // To the wall's middle, 10 away, by `turns` mirrors that are 2 apart.
+    const std::string mirrors = corridor_text(1, 10. / (2 * turns), 0);
+    EXPECT_NEAR(seen(mirrors, turns), kLit, 2. / 255);
+    EXPECT_EQ(seen(mirrors, turns + 1), seen(mirrors, turns));
+    const std::string panes = corridor_text(0, 1, turns);
+    EXPECT_NEAR(seen(panes, turns), kLit, 2. / 255);
+    if (turns == 1) continue;  // a depth of 0 there is not
+    EXPECT_EQ(seen(mirrors, turns - 1), 0);
+    EXPECT_EQ(seen(panes, turns - 1), 0);
+  }
 }
 
 TEST_F(YartProgram, BadInputIsCodeOneAndSaysWhy) {

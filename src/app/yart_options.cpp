@@ -94,7 +94,7 @@ uint32_t ray_depth(const FlagText& flag, std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (text.empty() || error != std::errc() || end != text.data() + text.size() || !(value > 0))
     throw Error(fmt::format("yat: {} {}: give a number above 0", shown(flag), text));
-  return uint32_t(std::clamp(std::floor(value), 1., 65535.));
+  return uint32_t(std::clamp(std::floor(value), 1., 65534.));
 }
 
 void remark(YartArguments& to, std::string_view text) {
@@ -203,8 +203,6 @@ YartArguments parse_yart_command_line(int argc, const char* const* argv) {
     read(flag, value, to);
   }
   if (to.scene.empty()) throw Error("yat: no scene: give -i FILE (yat --help says more)");
-  if (to.path_tracer && is_given(Flag::kAntialiasing))
-    throw Error("yat: -aa is for the ray tracer: leave out -pathtracer, or give -s instead");
   if (window && to.benchmark) throw Error("yat: -g and -b exclude each other");
   if (window && to.output.empty())
     throw Error("yat: -g: the window comes with a later version: give -o FILE to save the picture");
@@ -217,6 +215,8 @@ YartArguments parse_yart_command_line(int argc, const char* const* argv) {
     for (const auto& [flag, name] :
          {std::pair(Flag::kSamples, "-s"), std::pair(Flag::kTraceDepth, "-tr")})
       if (is_given(flag)) remark(to, fmt::format("{} counts with -pathtracer only", name));
+  if (to.path_tracer && is_given(Flag::kAntialiasing))
+    remark(to, "-aa does nothing with -pathtracer: -s is its number of paths");
   if (to.path_tracer && to.ray_depth)
     remark(to, "-d does nothing with -pathtracer: -tr is its depth");
   if (to.output.empty()) remark(to, "without -o FILE the picture is not saved");

@@ -20,7 +20,7 @@ namespace yat {
 
 namespace {
 
-constexpr uint32_t kRayTracerDepth = 10;
+constexpr uint32_t kRayTracerDepth = 10;  ///< reflections and refractions
 
 Arguments arguments_of(const YartArguments& given) {
   Arguments arguments;
@@ -28,8 +28,9 @@ Arguments arguments_of(const YartArguments& given) {
   arguments.dialect = Dialect::kYart;
   arguments.threads = given.threads;
   arguments.integrator = given.path_tracer ? Integrator::kPath : Integrator::kDirect;
+  // What is seen by the last reflection is lit, too: a vertex more.
   arguments.max_depth =
-      given.path_tracer ? given.trace_depth : given.ray_depth.value_or(kRayTracerDepth);
+      given.path_tracer ? given.trace_depth : given.ray_depth.value_or(kRayTracerDepth) + 1;
   return arguments;
 }
 
