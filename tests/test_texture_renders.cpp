@@ -1,5 +1,6 @@
 // Textured renders: against the oracle path by path, and closed forms.
 
+#include <algorithm>
 #include <filesystem>
 
 #include "oracle.h"
@@ -94,6 +95,117 @@ TEST_P(TextureRenders, PathsAgreeWithTheOracle) {
 TEST_P(TextureRenders, PicturesAgreeWithTheOracle) {
   const Scene scene = compile_in_folder(room_of_textures(), kernels());
   expect_same_picture(scene, kernels(), 4, 48, 8);
+}
+
+/// How a scene asks for a material kind whose parameters are textures; empty where only YART's
+/// rules have it (test_compile_materials.cpp).
+std::string type_of(MaterialKind kind) {
+  switch (kind) {
+    case MaterialKind::kMatte:
+    case MaterialKind::kOrenNayar:
+      return "\"matte\"";
+    case MaterialKind::kMatteTranslucent:
+      return "\"mattetranslucent\"";
+    case MaterialKind::kGlossySingle:
+      return "\"glossy\" \"bool separable\" [\"false\"]";
+    case MaterialKind::kGlossyLossy:
+      return "\"glossy_lossy\"";
+    case MaterialKind::kGlossyTranslucent:
+      return "\"glossytranslucent\"";
+    case MaterialKind::kMetalIndex:
+      return "\"metal2\" \"float fresnel\" [2]";
+    case MaterialKind::kMetalColour:
+      return "\"metal2\"";
+    case MaterialKind::kShinyMetal:
+      return "\"shinymetal\"";
+    case MaterialKind::kCookTorrance:
+    case MaterialKind::kCookTorranceSingle:
+      return "";
+    case MaterialKind::kRoughGlass:
+      return "\"roughglass\"";
+    case MaterialKind::kMirrorFilm:
+      return "\"mirror\" \"float film\" [300]";
+    case MaterialKind::kGlassFilm:
+      return "\"glass\" \"float film\" [300]";
+    case MaterialKind::kArchitecturalGlass:
+      return "\"glass\" \"bool architectural\" [\"true\"]";
+    case MaterialKind::kMix:
+      return "\"mix\" \"string namedmaterial1\" [\"one\"] \"string namedmaterial2\" [\"other\"]";
+    default:
+      return "\"" + std::string(material_traits(kind).name) + "\"";
+  }
+}
+
+/// Every parameter that a material's header lists as one that textures may give, all at once.
+TEST_P(TextureRenders, EveryTexturedParameterAgreesWithTheOracle) {
+  struct Range {
+    const char *parameter, *low, *high;
+  };
+  constexpr Range kNumbers[] = {{"sigma", "5", "40"},       {"index", "1.3", "1.9"},
+                                {"uroughness", ".2", ".6"}, {"vroughness", ".3", ".5"},
+                                {"d", ".1", ".6"},          {"p1", "-3", "-1"},
+                                {"p2", "10", "20"},         {"p3", "1", "3"},
+                                {"thickness", ".05", ".2"}, {"amount", ".1", ".9"}};
+  const auto ramp = [](const std::string& name, const std::string& kind,
+                       const std::string& values) {
+    return "Texture \"" + name + "\" \"" + kind + "\" \"bilerp\" " + values +
+           " \"float uscale\" [3] \"float vscale\" [2]\n";
+  };
+  std::string textures = ramp("colour", "color",
+                              "\"color v00\" [.1 .2 .7] \"color v10\" [.7 .2 .1] "
+                              "\"color v01\" [.1 .7 .2] \"color v11\" [.6 .6 .3]");
+  for (const Range& r : kNumbers)
+    textures += ramp(r.parameter, "float",
+                     std::string("\"float v00\" [") + r.low + "] \"float v11\" [" + r.low +
+                         "] \"float v01\" [" + r.high + "] \"float v10\" [" + r.high + "]");
+  uint32_t tried = 0;
+  for (uint32_t k = 0; k < kMaterialKinds; ++k) {
+    const auto kind = MaterialKind(k);
+    const MaterialTraits traits = material_traits(kind);
+    const std::string type = type_of(kind);
+    if (!traits.textured.count || type.empty()) continue;
+    SCOPED_TRACE(std::string(traits.name));
+    std::string material = type;
+    std::vector<uint32_t> fields;
+    for (const TexturedField& field : traits.textured) {
+      // Two names of one parameter: the first will do.
+      if (std::find(fields.begin(), fields.end(), field.field) != fields.end()) continue;
+      fields.push_back(field.field);
+      const std::string name(field.parameter);
+      ASSERT_TRUE(field.channels == 3 ||
+                  std::any_of(std::begin(kNumbers), std::end(kNumbers),
+                              [&](const Range& r) { return name == r.parameter; }))
+          << name;
+      material += " \"texture " + name + "\" [\"" + (field.channels == 3 ? "colour" : name) + "\"]";
+    }
+    const std::string text =
+        view_text("0 -2.6 .3", "0 0 -.2", 44, 16, 12) + textures +
+        "MakeNamedMaterial \"one\" \"string type\" [\"matte\"] \"color Kd\" [.8 .4 .2]\n"
+        "MakeNamedMaterial \"other\" \"string type\" [\"mirror\"]\n" +
+        matte_text(".6 .6 .6") + quad_text("-3 -3 -1", "3 -3 -1", "3 3 -1", "-3 3 -1") +
+        quad_text("-3 2 -1", "3 2 -1", "3 2 4", "-3 2 4") + "AttributeBegin\n" +
+        light_text("9 8 7") + quad_text("-.6 -.6 1.6", "-.6 .6 1.6", ".6 .6 1.6", ".6 -.6 1.6") +
+        "AttributeEnd\nLightSource \"point\" \"point from\" [-1.5 -2 1]\nMaterial " + material +
+        "\n" + sphere_text("0 0 -.1", .85) + "WorldEnd\n";
+    // LuxRender ignores colours for metal2's fresnel, which is said.
+    Diagnostics diagnostics([&](Severity severity, std::string_view line) {
+      if (severity == Severity::kError ||
+          (severity == Severity::kWarning && kind != MaterialKind::kMetalColour))
+        ADD_FAILURE() << line;
+    });
+    const Scene scene = compile_description(parse_scene(text, "test.lxs", ".", diagnostics),
+                                            kernels(), diagnostics);
+    EXPECT_TRUE(std::any_of(scene.bins.begin(), scene.bins.end(), [&](const Bin& bin) {
+      return bin.material == kind && bin.program != kNone;
+    })) << text;
+    PlanOptions options;
+    options.max_depth = 4;
+    options.seed = 7;
+    // Dark and narrow lobes amplify rounding: paths agree less, their mean does not.
+    EXPECT_GT(agreement(scene, make_plan(scene, kernels(), options), 4, 1e-2, 1e-3), .9);
+    ++tried;
+  }
+  EXPECT_GE(tried, 18u);
 }
 
 /// A wall lit by one distant light head-on, seen by pixels that are texels: radiance is texel / pi.
