@@ -22,6 +22,8 @@ fi
 # Emulated code runs some 30 times slower. Tests of many samples are about the formulas, which the native
 # run of every instruction set covers; each kernel meets its instructions in the tests that stay.
 left_out=(
+  Composites.{BallsInAFurnaceAreNeverBrighter,FurnaceIsTheFormulasAndNeverBrighter}
+  Composites.SamplesFollowTheSumOfTheirPartsDensities
   Determinism.SameBitsForAnyThreadsBatchTileAndSplit
   Environment.{BothWaysFindTheSameLight,DirectionsFollowTheirDensity}
   InstanceRenders.PictureIsThatOfCopies
@@ -29,13 +31,13 @@ left_out=(
   Lights.{IrradianceOfKnownShapes,SphereConeIsUniformInSolidAngleNearAndFar}
   Materials.{FurnaceIsNeverBrighterThanItsLight,SamplesFollowTheirDensity}
   Oracle.PicturesAgree
-  Renders.{FurnaceAtEveryDepth,LanesAreBusyWhileShading,SphereFurnaceAtEveryDepth}
+  Renders.{FurnaceAtEveryDepth,LanesAreBusyWhileShading,SphereFurnaceAtEveryDepth,TheBackOfALampShowsTheLastMaterial}
   ShapeLights.DensitiesIntegrateToTheArea
   ShapeRenders.ThousandsOfSpheresByTheTree
   Shapes.{SpawnedRaysDoNotMeetWhatTheyLeft,SurfacesHavePositionNormalAndUv}
   ShapeTangents.AreHowThePlaceMovesWithUAndV
   Split.{ACoatOverMatteIsGlossy,EachCrossingDecidesAnew}
-  TextureRenders.PicturesAgreeWithTheOracle
+  TextureRenders.{EveryTexturedParameterAgreesWithTheOracle,PicturesAgreeWithTheOracle}
   Traverse.{FindsTheNearestHitInLargerSoup,FindsTheNearestHitInVoxels}
   TraverseAdversarial.{ClosedMeshes,EveryRayInEveryBox}
   TraverseLimits.ClosedMeshesAreWatertight
