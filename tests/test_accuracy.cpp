@@ -1,6 +1,7 @@
 // The formulas behind the known answers against figures in print, and bench_accuracy itself on a
 // few cases.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -159,6 +160,44 @@ TEST(Accuracy, ADeviationIsJudgedBySigmaAndByTheStandardError) {
   EXPECT_FALSE(outcome.within({3, 1e-3}));
 }
 
+TEST(Accuracy, ChanceIsStudentsOfTheRunsThereAre) {
+  Outcome outcome;
+  outcome.known = {1e3};
+  outcome.measured.error = 1;  // Much more than roundings.
+  outcome.measured.runs = 16;
+  // Tables of Student's t, 15 degrees of freedom.
+  EXPECT_NEAR(outcome.chance_of(2.131), .05, 5e-5);
+  EXPECT_NEAR(outcome.chance_of(-2.947), .01, 2e-5);
+  // Two equal errors of 16 runs have 30 (Welch).
+  outcome.known.error = 1;
+  outcome.known.runs = 16;
+  EXPECT_NEAR(outcome.chance_of(2.042), .05, 5e-5);
+  // Where roundings are all there is, the normal distribution.
+  outcome.measured.error = outcome.known.error = 0;
+  EXPECT_NEAR(outcome.chance_of(1.96), .05, 1e-4);
+}
+
+TEST(Accuracy, WhatLiesOutsideCountsAsItDoesWhenRepeated) {
+  const Limits limits{3, 1e-3};
+  Outcome right, wrong;
+  right.known = wrong.known = {2};
+  right.measured.value = 2.001;
+  right.measured.error = wrong.measured.error = .001;
+  wrong.measured.value = 2.004;
+  EXPECT_TRUE((Verdict{right, {}}.good(limits)));
+  EXPECT_FALSE((Verdict{wrong, {}}.good(limits)));
+  EXPECT_TRUE((Verdict{wrong, right}.good(limits)));
+  EXPECT_FALSE((Verdict{wrong, wrong}.good(limits)));
+  // Both are on record.
+  const Case c{"a", "b", {}, {}, {}};
+  right.c = wrong.c = &c;
+  const Json row = json_row({wrong, right}, limits);
+  EXPECT_EQ(row["within"], false);
+  EXPECT_EQ(row["again"]["within"], true);
+  EXPECT_EQ(row["good"], true);
+  EXPECT_NE(markdown({{wrong, right}}, {}, limits).find("***"), std::string::npos);
+}
+
 class AccuracyProgram : public testing::Test {
  protected:
   void SetUp() override {
@@ -201,6 +240,43 @@ TEST_F(AccuracyProgram, EndsWithOneWhereACaseIsNotWithinTheLimits) {
   strict.insert(strict.end(), {"--sigma", "1e9", "--error", "1e-9"});
   EXPECT_EQ(run(strict).code, 1);
   EXPECT_EQ(run({"--filter", "no such case"}).code, 2);
+}
+
+// Runs are added until the standard error is small, and what is outside is rendered again.
+TEST_F(AccuracyProgram, AddsRunsAndRepeatsWhatIsOutside) {
+  const std::vector<std::string> few = {"--filter",  "lights.triangle,rooms.cube.adjacent",
+                                        "--runs",    "4",
+                                        "--scale",   ".001",
+                                        "--json",    "accuracy.json",
+                                        "--threads", "1",
+                                        "--error",   "10"};
+  const auto rows = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = few;
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_LE(run(words).code, 1);
+    return Json::parse(read_whole(folder / "accuracy.json"))["cases"];
+  };
+  const Json loose = rows({"--sigma", "1e9"}), other = rows({"--sigma", "1e9", "--seed", "7"});
+  // Twice what is there is enough for a little less; the first runs are the same.
+  const double error = double(loose[0]["standard_error"]) / double(loose[0]["expected"]);
+  std::vector<std::string> tighter = few;
+  tighter.back() = fmt::format("{}", 99 * error);
+  tighter.insert(tighter.end(), {"--sigma", "1e9"});
+  run(tighter);
+  const Json tight = Json::parse(read_whole(folder / "accuracy.json"))["cases"];
+  EXPECT_EQ(loose[0]["runs"], 4);
+  EXPECT_GE(tight[0]["runs"], 8);
+  EXPECT_LE(tight[0]["runs"], 32);
+  EXPECT_LT(double(tight[0]["standard_error"]), double(loose[0]["standard_error"]));
+  EXPECT_EQ(tight[0]["spp"], loose[0]["spp"]);
+  EXPECT_NE(other[0]["computed"], loose[0]["computed"]);
+
+  const Json repeated = rows({"--sigma", "1e-9"});
+  for (const Json& row : repeated) {
+    EXPECT_EQ(row["again"]["runs"], 16) << row;
+    EXPECT_NE(row["again"]["computed"], row["computed"]) << row;
+    EXPECT_EQ(row["good"], false) << row;
+  }
 }
 
 TEST_F(AccuracyProgram, ListsItsCases) {

@@ -29,8 +29,10 @@ struct Probe {
 
 struct Effort {
   uint32_t runs = 32;            ///< independent runs (seeds) that the standard error comes from
-  uint32_t seed = 0;             ///< of the first run
+  uint32_t seed = 0;             ///< another one gives all cases other random numbers
   double target = 3e-4;          ///< standard error to plan for, of the expected value
+  double limit = 1e-3;           ///< standard error above which runs are added
+  uint32_t most = 8;             ///< times `runs`, at most, where they are
   double scale = 1;              ///< times the samples that this takes
   uint32_t least_spp = 2048;     ///< per run: rare paths have to be among the samples at all
   uint32_t most_spp = 1u << 20;  ///< the standard error stays larger where that is not enough
@@ -46,7 +48,8 @@ struct Machine {
 /// What is expected, and how well that is known itself (0 for a formula or quadrature).
 struct Known {
   double value = 0;
-  double error = 0;  ///< standard error, or what single precision takes in a way that is known
+  double error = 0;   ///< standard error, or what single precision takes in a way that is known
+  uint32_t runs = 0;  ///< that the error comes from; 0: it comes from none
 };
 
 struct Case {
@@ -56,7 +59,7 @@ struct Case {
   std::function<Known(const Machine&)> expected;
   std::optional<double> published;     ///< the same number in print, to as many digits as there
   std::function<void()> prepare = {};  ///< called before the first render: makes files
-  double effort = 1;   ///< standard error to plan for, times that of others: > 1 where it is dear
+  double effort = 1;   ///< standard error to plan for, times that of others: 2 where it is dear
   bool extra = false;  ///< like others; only on demand
 };
 
@@ -67,7 +70,7 @@ struct Missing {
 
 /// A case whose value is a constant or a closed form that costs nothing.
 inline std::function<Known(const Machine&)> known(double value) {
-  return [value](const Machine&) { return Known{value, 0}; };
+  return [value](const Machine&) { return Known{value}; };
 }
 
 // The families, in the order of the report.

@@ -208,7 +208,7 @@ void add_roofs(std::vector<Case>& cases, const std::shared_ptr<Skies>& skies) {
               8,         [](const Vec&) { return std::vector<double>(); },
               open_air()};
     add_rows(cases, s, "cie.5.9." + kRoofs[i].name, *open[i], roof_points(), kRoofPoints, {1, 12},
-             1);
+             2);
     s.what = "the same, glazed [%]";
     s.objects += pane_before(outside, 1, kUp);
     s.depth = 64;
@@ -232,7 +232,7 @@ void add_facades(std::vector<Case>& cases, const std::shared_ptr<Skies>& skies) 
               },
               open_air()};
     add_rows(cases, s, "cie.5.11." + kFacades[i].name, *open[i], facade_points(), kFacadePoints,
-             {1, 12}, 1);
+             {1, 12}, 2);
     s.what = "the same, glazed [%]";
     s.objects += pane_before(kFacade, 1, kSouth);
     s.depth = 64;

@@ -2,6 +2,9 @@
 // What came out, as a table and as JSON.
 
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "accuracy/case.h"
 #include "accuracy/runs.h"
@@ -25,17 +28,31 @@ struct Outcome {
   /// the expected value.
   double sigma() const;
   double relative_error() const;
+  /// How often chance brings a deviation of so many standard errors or more, either way: by
+  /// Student's distribution, as the errors come from few runs, with the degrees of freedom of Welch
+  /// and Satterthwaite.
+  double chance_of(double deviation) const;
   bool within(const Limits& limits) const;
 };
 
+/// A case, and the same again where chance may have put it outside.
+struct Verdict {
+  Outcome first;
+  std::optional<Outcome> again;  ///< other random numbers, kRepeatedRuns times as many runs
+  /// The standard error is small enough, and what lay outside was not confirmed.
+  bool good(const Limits& limits) const;
+};
+/// A bias that was just outside at first is then twice as many standard errors away.
+inline constexpr uint32_t kRepeatedRuns = 4;
+
 void print_header();
-void print_row(const Outcome& outcome, const Limits& limits);
-/// Counts, the largest deviation, and what chance would give: p is the probability that the largest
-/// of so many deviations is no smaller.
-void print_summary(const std::vector<Outcome>& outcomes, const Limits& limits);
+void print_row(const Verdict& verdict, const Limits& limits);
+/// Counts; how many chance puts outside; the least probable deviation, and how often the least
+/// probable of so many is no likelier.
+void print_summary(const std::vector<Verdict>& verdicts, const Limits& limits);
 /// The table in Markdown, and what is missing below it.
-std::string markdown(const std::vector<Outcome>& outcomes, const std::vector<Missing>& missing,
+std::string markdown(const std::vector<Verdict>& verdicts, const std::vector<Missing>& missing,
                      const Limits& limits);
-nlohmann::ordered_json json_row(const Outcome& outcome, const Limits& limits);
+nlohmann::ordered_json json_row(const Verdict& verdict, const Limits& limits);
 
 }  // namespace yat::accuracy

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "converge/hash.h"
 #include "film/features.h"
 #include "measure.h"
 #include "scene/parse.h"
@@ -75,23 +76,32 @@ double render_mean(const Prepared& p, const Machine& machine, uint32_t seed, uin
 /// One run's value of so many samples per pixel.
 using Run = std::function<double(uint32_t seed, uint32_t spp)>;
 
-Known mean_of_runs(const Run& run, uint32_t first_seed, uint32_t runs, uint32_t spp) {
-  std::vector<double> values;
-  for (uint32_t i = 0; i < runs; ++i) values.push_back(run(first_seed + i, spp));
-  double sum = 0, squares = 0;
-  for (const double v : values) sum += v;
-  for (const double v : values) squares += (v - sum / runs) * (v - sum / runs);
-  return {sum / runs, std::sqrt(squares / (runs - 1.) / runs)};
-}
+/// Values of runs, and what they say.
+struct Values {
+  std::vector<double> all;
+  void add(const Run& run, uint32_t seed, uint32_t runs, uint32_t spp) {
+    for (uint32_t i = 0; i < runs; ++i) all.push_back(run(seed + uint32_t(all.size()), spp));
+  }
+  Known mean() const {
+    const double n = double(all.size());
+    double sum = 0, squares = 0;
+    for (const double v : all) sum += v;
+    for (const double v : all) squares += (v - sum / n) * (v - sum / n);
+    return {sum / n, std::sqrt(squares / (n - 1) / n), uint32_t(all.size())};
+  }
+};
 
 /// Samples per pixel of each of the runs for a standard error of `target`. The error falls at least
 /// as 1 / sqrt(samples): a pilot that is an eighth of what this asks for is near enough, and a
 /// quarter is added for what the pilot does not know.
 uint32_t plan_samples(const Run& run, uint32_t pilot_seed, double target, const Effort& effort) {
+  constexpr uint32_t kPilotRuns = 16;
   double needed = 0;
   for (uint32_t pilot = 32;; pilot *= 8) {
-    const double ratio = mean_of_runs(run, pilot_seed, 16, pilot).error / target;
-    needed = 1.25 * effort.scale * pilot * ratio * ratio * 16 / effort.runs;
+    Values values;
+    values.add(run, pilot_seed, kPilotRuns, pilot);
+    const double ratio = values.mean().error / target;
+    needed = 1.25 * effort.scale * pilot * ratio * ratio * kPilotRuns / effort.runs;
     // Of a value that is 0, every sample has to be: there is nothing to plan.
     if (!(needed > 8. * pilot) || pilot >= effort.most_spp / 8) break;
   }
@@ -101,17 +111,26 @@ uint32_t plan_samples(const Run& run, uint32_t pilot_seed, double target, const 
   return 1u << uint32_t(std::clamp(std::ceil(std::log2(needed)), 2., 30.));
 }
 
-// Seeds of pilots and of what measured values are compared with; --seed is below.
-constexpr uint32_t kPilotSeed = 0x40000000u, kOtherSeed = 0x80000000u;
+// Of a seed: a bit for what measured values are compared with, one for pilots, the rest for case
+// and run.
+constexpr uint32_t kOtherBit = 1u << 31, kPilotBit = 1u << 30;
 
-Known run_other(const Run& run, double target, const Effort& effort) {
-  const uint32_t seed = kOtherSeed + effort.seed;
-  return mean_of_runs(run, seed, effort.runs, plan_samples(run, seed + kPilotSeed, target, effort));
+/// Of a case's first run. Cases would all go up and down together if they shared random numbers.
+uint32_t first_seed(const std::string& name, uint32_t seed) {
+  return (uint32_t(fnv1a_of(name)) + seed) & (kPilotBit - 1);
+}
+
+Known run_other(const Run& run, const std::string& name, double target, const Effort& effort) {
+  const uint32_t seed = first_seed(name, effort.seed) | kOtherBit;
+  const uint32_t spp = plan_samples(run, seed | kPilotBit, target, effort);
+  Values values;
+  values.add(run, seed, effort.runs, spp);
+  return values.mean();
 }
 
 }  // namespace
 
-Measured measure(const Case& c, double expected, const Machine& machine) {
+Measured measure(const Case& c, const Known& expected, const Machine& machine) {
   const double begin = bench::process_seconds();
   const Effort& effort = machine.effort;
   std::vector<Prepared> probes;
@@ -123,26 +142,40 @@ Measured measure(const Case& c, double expected, const Machine& machine) {
       value += p.probe.factor * render_mean(p, machine, seed, spp, m.samples);
     return value;
   };
-  m.spp = plan_samples(run, effort.seed + kPilotSeed,
-                       c.effort * effort.target * std::fabs(expected), effort);
+  const uint32_t seed = first_seed(c.name, effort.seed);
+  const double level = std::fabs(expected.value);
+  m.spp = plan_samples(run, seed | kPilotBit, c.effort * effort.target * level, effort);
   m.samples = 0;
-  const Known found = mean_of_runs(run, effort.seed, effort.runs, m.spp);
+  Values values;
+  values.add(run, seed, effort.runs, m.spp);
+  const auto is_loose = [&] {
+    return std::hypot(values.mean().error, expected.error) > effort.limit * level;
+  };
+  while (is_loose() && values.all.size() < size_t(effort.runs) * effort.most)
+    values.add(run, seed,
+               std::min(uint32_t(values.all.size()),
+                        effort.runs * effort.most - uint32_t(values.all.size())),
+               m.spp);
+  const Known found = values.mean();
   m.value = found.value;
   m.error = found.error;
+  m.runs = found.runs;
   m.seconds = bench::process_seconds() - begin;
   return m;
 }
 
-Known by_render(const Probe& probe, double target, const Machine& machine) {
+Known by_render(const std::string& name, const Probe& probe, double target,
+                const Machine& machine) {
   const Prepared p = prepare(probe, machine);
   uint64_t samples = 0;
   const Run run = [&](uint32_t seed, uint32_t spp) {
     return probe.factor * render_mean(p, machine, seed, spp, samples);
   };
-  return run_other(run, target, machine.effort);
+  return run_other(run, name, target, machine.effort);
 }
 
-Known by_reference(const Probe& probe, double target, const Machine& machine) {
+Known by_reference(const std::string& name, const Probe& probe, double target,
+                   const Machine& machine) {
   const Prepared p = prepare(probe, machine);
   const uint32_t width = p.scene.film.crop_width(), height = p.scene.film.crop_height();
   const Run run = [&](uint32_t seed, uint32_t spp) {
@@ -163,7 +196,7 @@ Known by_reference(const Probe& probe, double target, const Machine& machine) {
   };
   Effort effort = machine.effort;
   effort.least_spp = 16;  // ten to a hundred times as slow as the kernels
-  return run_other(run, target, effort);
+  return run_other(run, name, target, effort);
 }
 
 }  // namespace yat::accuracy
