@@ -5,6 +5,7 @@
 #include "app/converge_options.h"
 #include "app/option_words.h"
 #include "app/options.h"
+#include "converge/ladder.h"
 #include "run_program.h"
 
 namespace yat {
@@ -55,6 +56,27 @@ TEST(ConvergeOptions, VariantsLieOverWhatHoldsForAll) {
   EXPECT_NE(a.variants[0].scene_key, a.variants[2].scene_key);
 }
 
+// A target decides about samples: one point instead of a ladder, and nothing for the reference.
+TEST(ConvergeOptions, VariantsMayHaveANoiseTarget) {
+  const ConvergeArguments a =
+      parse_converge_arguments({"s.lxs", "-o", "out", "--ladder", "4,16", "--variant",
+                                "plain:", "--variant", "target: --noise-target .01 --adaptive on"});
+  EXPECT_FALSE(a.variants[0].to_noise());
+  EXPECT_EQ(a.variants[0].ladder, (std::vector<uint32_t>{4, 16}));
+  EXPECT_TRUE(a.variants[1].to_noise());
+  EXPECT_EQ(a.variants[1].ladder, (std::vector<uint32_t>{kTargetRung}));
+  EXPECT_EQ(a.variants[1].arguments.adaptive, Adaptive::kOn);
+  EXPECT_EQ(a.variants[0].scene_key, a.variants[1].scene_key);
+
+  const ConvergeArguments all =
+      parse_converge_arguments({"s.lxs", "-o", "out", "--noise-target", ".1", "--variant",
+                                "off:", "--variant", "on: --adaptive on"});
+  EXPECT_TRUE(all.variants[0].to_noise());
+  EXPECT_TRUE(all.variants[1].to_noise());
+  EXPECT_FALSE(all.shared.to_noise());
+  EXPECT_EQ(all.shared.scene_key, all.variants[0].scene_key);
+}
+
 TEST(ConvergeOptions, MistakesAreNamed) {
   EXPECT_EQ(usage_error({"s.lxs"}), "yat converge: add -o FOLDER, where the report goes");
   EXPECT_NE(usage_error({"-o", "f"}).find("which scene?"), std::string::npos);
@@ -76,8 +98,11 @@ TEST(ConvergeOptions, MistakesAreNamed) {
   // What is sampled and written is the command's own business.
   EXPECT_TRUE(
       usage_error({"s.lxs", "-o", "f", "--spp", "4"}).starts_with("--spp: not with yat converge"));
-  EXPECT_TRUE(usage_error({"s.lxs", "-o", "f", "--variant", "a: --noise-target 1"})
-                  .starts_with("--variant \"a\": --noise-target: not with yat converge"));
+  EXPECT_TRUE(usage_error({"s.lxs", "-o", "f", "--variant", "a: --time 1"})
+                  .starts_with("--variant \"a\": --time: not with yat converge"));
+  EXPECT_NE(usage_error({"s.lxs", "-o", "f", "--variant", "a: --adaptive on"})
+                .find("--adaptive says how --noise-target takes samples"),
+            std::string::npos);
   EXPECT_EQ(usage_error({"s.lxs", "-o", "f", "--variant", "a: --runs 3"}),
             "--variant \"a\": --runs is not for one variant: give it outside");
   EXPECT_NE(usage_error({"s.lxs", "-o", "f", "--variant", "a: --sampler sobl"})

@@ -72,6 +72,17 @@ TEST_F(Converge, ComparesVariantsAndGoesOnWhereItWas) {
                           "resolution", "settings", "time", "cpu_time", "peak_rss", "rays", "lanes",
                           "stages", "dropped", "error", "reference", "ttuv"})
     EXPECT_TRUE(all["runs"][0].contains(key)) << key;
+  for (const Json& run : all["runs"]) {
+    EXPECT_GT(run["error"]["flip"], 0);
+    EXPECT_GT(run["time"]["write"], 0);
+    // Every path meets floor or lamp at most once; what is sampled shows a light or is skipped.
+    const Json& rays = run["rays"];
+    EXPECT_EQ(int(rays["shadow"]) + int(rays["skipped_shadow"]),
+              run["stages"]["sample_lights"]["items"]);
+    EXPECT_GT(rays["skipped_shadow"], 0);
+    // A ray of 7 words in, a hit of 4 out.
+    EXPECT_EQ(run["stages"]["intersect"]["bytes"], 44 * int(run["stages"]["intersect"]["items"]));
+  }
   EXPECT_EQ(all["runs"][0]["reference"]["spp"], 64 * 16);
   EXPECT_GT(all["runs"][0]["time"]["render"], 0);
   // On a smooth picture the sobol sampler needs less, and more so the more samples there are.
@@ -107,6 +118,44 @@ TEST_F(Converge, ComparesVariantsAndGoesOnWhereItWas) {
   other.push_back("--restart");
   EXPECT_EQ(converge(other).code, 0);
   EXPECT_EQ(report()["runs"].size(), 16u);
+}
+
+// A noise target decides by itself how many samples it takes: one point beside the ladder.
+TEST_F(Converge, NoiseTargetsAreVariants) {
+  const std::vector<std::string> words = {"-o",        "out",
+                                          "--ladder",  "4,64",
+                                          "--runs",    "4",
+                                          "--variant", "plain:",
+                                          "--variant", "target: --noise-target .02",
+                                          "--variant", "weighed: --noise-target .02 --adaptive on"};
+  const ProgramResult first = converge(words);
+  ASSERT_EQ(first.code, 0) << first.err;
+  const Json all = report();
+  ASSERT_EQ(all["runs"].size(), 4 * (2 + 1 + 1u));
+  std::vector<double> samples;
+  for (const Json& run : all["runs"]) {
+    EXPECT_EQ(run.contains("noise"), run["variant"] != "plain");
+    if (run["variant"] == "plain") continue;
+    EXPECT_EQ(run["spp"], 0);
+    EXPECT_EQ(run["noise"]["target"], .02);
+    EXPECT_EQ(run["noise"]["reached"], true);
+    EXPECT_EQ(run["noise"]["adaptive"], run["variant"] == "weighed");
+    // What it says of itself is true: its estimate is on the safe side.
+    EXPECT_LT(run["error"]["relmse"], .02);
+    EXPECT_GT(run["error"]["relmse"], .02 / 20);
+    samples.push_back(run["samples_per_pixel"]);
+  }
+  const Json& target = all["summary"]["variants"][1];
+  ASSERT_EQ(target["rungs"].size(), 1u);
+  EXPECT_GT(target["rungs"][0]["samples_per_pixel"], 4);
+  EXPECT_TRUE(target["slope"]["value"].is_null());
+  EXPECT_GT(target["rungs"][0]["ttuv_cpu_ratio"]["value"], 0);
+  EXPECT_EQ(target["bias"]["pixels"], 16 * 12);
+  // What is there is found again.
+  const ProgramResult again = converge(words);
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(again.out, first.out);
+  EXPECT_EQ(report()["runs"], all["runs"]);
 }
 
 // The picture that is made is the runs' truth: their mean comes to it.

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "converge/ladder.h"
 #include "converge/record.h"
 #include "converge/summary_json.h"
 #include "converge/summary_text.h"
@@ -173,6 +174,46 @@ TEST(Summary, ComparesAtTheHighestRungOfAll) {
   EXPECT_EQ(s.variants[0].rungs[s.variants[0].headline].spp, 16u);
   EXPECT_EQ(s.variants[1].rungs[s.variants[1].headline].spp, 16u);
   EXPECT_EQ(s.variants[0].top().spp, 256u);
+}
+
+// A variant with a noise target has one point, of some mean number of samples, and is compared with
+// the rung next to it.
+TEST(Summary, NoiseTargetsAreComparedWithTheNearestRung) {
+  const std::vector<Method> methods = {{"plain", 1}};
+  std::vector<RunRecord> runs = runs_of(methods, kLadder);
+  // 50 samples of three times the efficiency; every third run takes less.
+  for (const RunRecord& r : runs_of({{"target", 1. / 3}}, {48, 54})) {
+    RunRecord of_target = r;
+    of_target.run = 2 * r.run + (r.spp == 54);
+    of_target.spp = kTargetRung;
+    of_target.hdr_flip = r.spp == 54 ? .1 : .2;
+    runs.push_back(of_target);
+  }
+  const Reference exact = grey_reference(0);
+  Experiment e;
+  e.variants = {"plain", "target"};
+  e.ladder = kLadder;
+  e.ladder.insert(e.ladder.begin(), kTargetRung);
+  e.runs = runs;
+  e.reference = &exact;
+  const ConvergeSummary s = summarize(e);
+  ASSERT_EQ(s.variants.size(), 2u);
+  // The ladder's own headline is not that of the target.
+  EXPECT_EQ(s.variants[0].rungs[s.variants[0].headline].spp, 256u);
+  const VariantSummary& target = s.variants[1];
+  ASSERT_EQ(target.rungs.size(), 1u);
+  EXPECT_EQ(target.headline, 0u);
+  EXPECT_NEAR(target.top().samples, 51, 1e-9);
+  EXPECT_EQ(target.top().runs, 32u);
+  EXPECT_NEAR(*target.top().hdr_flip, .15, 1e-9);
+  EXPECT_NEAR(target.top().ttuv_ratio.value, 1. / 3, .03);
+  EXPECT_TRUE(std::isnan(target.slope.value));
+  EXPECT_NE(converge_tables(s).find("~51"), std::string::npos) << converge_tables(s);
+  EXPECT_TRUE(s.warnings.empty()) << s.warnings.front();
+  // The other way round too.
+  e.variants = {"target", "plain"};
+  const ConvergeSummary t = summarize(e);
+  EXPECT_NEAR(t.variants[1].rungs[3].ttuv_ratio.value, 3, .3);
 }
 
 TEST(Summary, OfNothingAndOfOneRun) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "render_scenes.h"
+#include "wavefront/stages.h"
 
 namespace yat {
 namespace {
@@ -127,6 +128,23 @@ TEST(Plan, ATableWithoutANeededKernelIsRefused) {
   const Scene scene = compile_text(everything_text(8, 8), kernels);
   kernels.shadow_spheres = nullptr;
   EXPECT_THROW(make_plan(scene, kernels, {}), std::logic_error);
+}
+
+// Whatever a stage reads and writes has a size.
+TEST(Stages, RowsOfAllThatIsNamedHaveASize) {
+  for (const StageInfo& stage : kStageList) {
+    for (std::string_view names : {stage.reads, stage.writes})
+      while (!names.empty()) {
+        const size_t end = names.find(", ");
+        EXPECT_GT(bytes_named(names.substr(0, end)), 0u) << names;
+        names = end == std::string_view::npos ? std::string_view() : names.substr(end + 2);
+      }
+    EXPECT_EQ(stage_row_bytes(stage.stage) == 0, stage.stage == Stage::kSchedule);
+  }
+  EXPECT_EQ(bytes_named("nothing"), 0u);
+  // A ray (7 words) in, a hit (4) out; a film pixel is a line of the cache.
+  EXPECT_EQ(stage_row_bytes(Stage::kIntersect), 4 * (7 + 4u));
+  EXPECT_EQ(stage_row_bytes(Stage::kAccumulate), 4 * (10 + 4 + 4u) + 64u);
 }
 
 }  // namespace

@@ -67,13 +67,15 @@ std::optional<Reference> given_reference(const ConvergeArguments& arguments,
                     "--crop) to suit",
                     given.path, given.image.width, given.image.height, width, height));
   if (!given.seed || given.scene_hash != scene.hash) return given;
-  for (const uint32_t spp : arguments.ladder)
-    for (uint32_t run = 0; run < arguments.runs; ++run)
-      if (run_seed(arguments.seed, spp, run) == *given.seed)
-        throw Error(
-            fmt::format("{}: error: rendered with seed {}, as run {} of {} spp: a run is "
-                        "never its own reference: give another --seed",
-                        given.path, *given.seed, run, spp));
+  for (const ConvergeVariant& variant : arguments.variants)
+    for (const uint32_t spp : variant.ladder)
+      for (uint32_t run = 0; run < arguments.runs; ++run)
+        if (run_seed(arguments.seed, spp, run) == *given.seed)
+          throw Error(fmt::format(
+              "{}: error: rendered with seed {}, as run {} of {}: a run is never its own "
+              "reference: give another --seed",
+              given.path, *given.seed, run,
+              spp == kTargetRung ? variant.name : fmt::format("{} spp", spp)));
   return given;
 }
 
@@ -117,7 +119,11 @@ class ConvergeRun {
   /// below has its first run.
   bool included(const ConvergeVariant& variant, size_t rung) const;
   uint64_t samples_left() const;
+  PictureMetadata metadata_of(const ConvergeVariant& variant, uint32_t seed,
+                              double samples_per_pixel) const;
   bool make_reference(std::atomic<bool>& stop);
+  double write_last(const RunResult& result, const ConvergeVariant& variant, uint32_t spp,
+                    uint32_t run) const;
   void warm_up(std::atomic<bool>& stop);
   void measure(size_t variant, size_t rung, uint32_t run, std::atomic<bool>& stop);
   void measure_all(std::atomic<bool>& stop);
@@ -132,7 +138,7 @@ class ConvergeRun {
   bool have_reference_ = false;
   uint32_t width_ = 0, height_ = 0;
   struct RungMoments {
-    uint32_t spp = 0;  ///< 0: of no rung yet
+    uint32_t spp = kNoRung;
     PixelMoments moments;
   };
   std::vector<RungMoments> moments_;  ///< per variant, of the rung that was added to last
@@ -156,7 +162,8 @@ void ConvergeRun::warn_of_sobol() const {
   const std::vector<uint32_t> odd = not_powers_of_two(arguments_.ladder);
   if (odd.empty()) return;
   for (const ConvergeVariant& variant : arguments_.variants)
-    if (renders_.plan(variant, odd.front(), 0).sampler == SamplerKind::kSobol)
+    if (!variant.to_noise() &&
+        renders_.plan(variant, odd.front(), 0).sampler == SamplerKind::kSobol)
       console_.line(fmt::format(
           "warning: {}: {} samples are no power of two, and between those the error of the sobol "
           "sampler is up to twice as large: give --ladder powers of two",
@@ -165,7 +172,7 @@ void ConvergeRun::warn_of_sobol() const {
 
 bool ConvergeRun::included(const ConvergeVariant& variant, size_t rung) const {
   if (arguments_.time_per_run <= 0 || rung == 0) return true;
-  const uint32_t spp = arguments_.ladder[rung], below = arguments_.ladder[rung - 1];
+  const uint32_t spp = variant.ladder[rung], below = variant.ladder[rung - 1];
   if (folder_.find(variant.name, spp, 0)) return true;
   const RunRecord* const before = folder_.find(variant.name, below, 0);
   return before && before->seconds * double(spp) / double(below) <= arguments_.time_per_run;
@@ -181,7 +188,7 @@ std::vector<PixelMoments> ConvergeRun::highest_moments() {
   std::vector<PixelMoments> all;
   for (size_t v = 0; v < arguments_.variants.size(); ++v) {
     uint32_t highest = 0;
-    for (const uint32_t spp : arguments_.ladder)
+    for (const uint32_t spp : arguments_.variants[v].ladder)
       if (folder_.find(arguments_.variants[v].name, spp, 0)) highest = spp;
     all.push_back(moments_of(v, highest));
   }
@@ -189,16 +196,21 @@ std::vector<PixelMoments> ConvergeRun::highest_moments() {
 }
 
 uint64_t ConvergeRun::samples_left() const {
-  uint64_t samples = 0;
+  double samples = 0;
   for (const ConvergeVariant& variant : arguments_.variants)
-    for (size_t rung = 0; rung < arguments_.ladder.size(); ++rung) {
-      const uint32_t spp = arguments_.ladder[rung];
+    for (size_t rung = 0; rung < variant.ladder.size(); ++rung) {
+      const uint32_t spp = variant.ladder[rung];
       const bool may_be =
-          included(variant, rung) || !folder_.find(variant.name, arguments_.ladder[rung - 1], 0);
+          included(variant, rung) || !folder_.find(variant.name, variant.ladder[rung - 1], 0);
+      // What a target takes is known when it has been reached once.
+      const RunRecord* const before = folder_.find(variant.name, spp, 0);
+      const double each = spp != kTargetRung ? spp
+                          : before           ? before->samples_per_pixel
+                                             : arguments_.ladder.back();
       for (uint32_t run = 0; may_be && run < arguments_.runs; ++run)
-        if (!folder_.find(variant.name, spp, run)) samples += spp;
+        if (!folder_.find(variant.name, spp, run)) samples += each;
     }
-  return samples * width_ * height_;
+  return uint64_t(samples * width_ * height_);
 }
 
 /// Part by part, each kept as it ends. False if stopped.
@@ -218,13 +230,6 @@ bool ConvergeRun::make_reference(std::atomic<bool>& stop) {
   reference_ = reference_of(parts, part);
   reference_.path = folder_.file("reference.exr");
 
-  PictureMetadata metadata;
-  metadata.scene = arguments_.scene;
-  metadata.scene_hash = renders_.scene(arguments_.shared).loaded.scene.hash;
-  metadata.seed = reference_seed(arguments_.seed, 0);
-  metadata.samples_per_pixel = reference_.samples_per_pixel;
-  metadata.isa = renders_.scene(arguments_.shared).kernels->isa;
-  metadata.version = kBuildInfo.version;
   // As --aov variance,sample_count: of a sample, so that their quotient is that of the mean.
   PictureLayer variance{"variance.R,variance.G,variance.B", {}}, count{"sample_count", {}};
   for (const double v : reference_.variance)
@@ -232,9 +237,36 @@ bool ConvergeRun::make_reference(std::atomic<bool>& stop) {
   count.values.assign(size_t(width_) * height_, float(reference_.samples_per_pixel));
   const PictureLayer layers[] = {std::move(variance), std::move(count)};
   write_picture(reference_.path, reference_.image.rgb, width_, height_,
-                renders_.scene(arguments_.shared).loaded.scene.film, metadata, layers);
+                renders_.scene(arguments_.shared).loaded.scene.film,
+                metadata_of(arguments_.shared, reference_seed(arguments_.seed, 0),
+                            reference_.samples_per_pixel),
+                layers);
   reference_.hash = read_reference(reference_.path).hash;
   return true;
+}
+
+PictureMetadata ConvergeRun::metadata_of(const ConvergeVariant& variant, uint32_t seed,
+                                         double samples_per_pixel) const {
+  const ConvergeScene& scene = renders_.scene(variant);
+  PictureMetadata metadata;
+  metadata.scene = arguments_.scene;
+  metadata.scene_hash = scene.loaded.scene.hash;
+  metadata.seed = seed;
+  metadata.samples_per_pixel = samples_per_pixel;
+  metadata.isa = scene.kernels->isa;
+  metadata.version = kBuildInfo.version;
+  return metadata;
+}
+
+/// Writes the picture of a run, over that of the run before. Returns the time that it took [s].
+double ConvergeRun::write_last(const RunResult& result, const ConvergeVariant& variant,
+                               uint32_t spp, uint32_t run) const {
+  Stopwatch watch;
+  write_picture(
+      folder_.file("last.exr"), result.image.rgb, width_, height_,
+      renders_.scene(variant).loaded.scene.film,
+      metadata_of(variant, run_seed(arguments_.seed, spp, run), result.samples_per_pixel));
+  return watch.lap();
 }
 
 /// One run of each variant that nobody looks at: caches, pages and clocks.
@@ -242,26 +274,25 @@ void ConvergeRun::warm_up(std::atomic<bool>& stop) {
   Progress silent(console_, ProgressKind::kSilent);
   for (const ConvergeVariant& variant : arguments_.variants)
     if (!stop)
-      renders_.run(variant, arguments_.ladder.front(), run_seed(arguments_.seed, 0, 0), silent,
+      renders_.run(variant, variant.ladder.front(), run_seed(arguments_.seed, kNoRung, 0), silent,
                    stop);
 }
 
 void ConvergeRun::measure(size_t v, size_t rung, uint32_t run, std::atomic<bool>& stop) {
   const ConvergeVariant& variant = arguments_.variants[v];
-  const uint32_t spp = arguments_.ladder[rung];
+  const uint32_t spp = variant.ladder[rung];
   progress_.expect(samples_left());
   const RunResult result =
       renders_.run(variant, spp, run_seed(arguments_.seed, spp, run), progress_, stop);
   if (stop) return;
-  const RunRecord record =
-      record_of_run(arguments_, renders_, variant, spp, run, result, reference_);
+  const RunRecord record = record_of_run(arguments_, renders_, variant, spp, run, result,
+                                         write_last(result, variant, spp, run), reference_);
   // Before the record: should this be the last thing that is done, the run is repeated, with the
   // same picture, and not added again.
   const bool highest =
-      rung + 1 == arguments_.ladder.size() ||
-      (arguments_.time_per_run > 0 && !folder_.find(variant.name, arguments_.ladder[rung + 1], 0) &&
-       record.seconds * double(arguments_.ladder[rung + 1]) / double(spp) >
-           arguments_.time_per_run);
+      rung + 1 == variant.ladder.size() ||
+      (arguments_.time_per_run > 0 && !folder_.find(variant.name, variant.ladder[rung + 1], 0) &&
+       record.seconds * double(variant.ladder[rung + 1]) / double(spp) > arguments_.time_per_run);
   if (PixelMoments* const sums = highest ? &moments_of(v, spp) : nullptr;
       sums && sums->count() == run) {
     sums->add(result.image);
@@ -269,17 +300,21 @@ void ConvergeRun::measure(size_t v, size_t rung, uint32_t run, std::atomic<bool>
   }
   folder_.add(record);
   if (arguments_.verbosity == Verbosity::kVerbose)
-    console_.line(fmt::format("{}, {} spp, run {}: {:.4g} s, {:.4g} CPU s, MSE {:.4g}",
-                              variant.name, spp, run, record.seconds, record.cpu_seconds,
-                              record.error.mse));
+    console_.line(fmt::format("{}, {:.6g} spp, run {}: {:.4g} s, {:.4g} CPU s, MSE {:.4g}",
+                              variant.name, record.samples_per_pixel, run, record.seconds,
+                              record.cpu_seconds, record.error.mse));
 }
 
 void ConvergeRun::measure_all(std::atomic<bool>& stop) {
+  size_t rungs = 0;
+  for (const ConvergeVariant& variant : arguments_.variants)
+    rungs = std::max(rungs, variant.ladder.size());
   for (uint32_t run = 0; run < arguments_.runs; ++run)
-    for (size_t rung = 0; rung < arguments_.ladder.size(); ++rung)
+    for (size_t rung = 0; rung < rungs; ++rung)
       for (size_t v = 0; v < arguments_.variants.size() && !stop; ++v) {
         const ConvergeVariant& variant = arguments_.variants[v];
-        if (included(variant, rung) && !folder_.find(variant.name, arguments_.ladder[rung], run))
+        if (rung < variant.ladder.size() && included(variant, rung) &&
+            !folder_.find(variant.name, variant.ladder[rung], run))
           measure(v, rung, run, stop);
       }
 }

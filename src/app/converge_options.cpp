@@ -22,7 +22,8 @@ constexpr OptionText kConvergeOptions[] = {
      "where everything is written; finished runs of the same experiment in it are not repeated"},
     {"--variant", "\"NAME: OPTIONS\"", "one, as the scene says",
      "a way to render the scene, by options of yat render; may be given several times, and each is "
-     "compared with the first"},
+     "compared with the first. With --noise-target it has one point, where the target is reached, "
+     "instead of those of the ladder"},
     {"--reference", "FILE", "one is made",
      "picture that errors are measured against: an .exr of the same size, perhaps of another "
      "renderer"},
@@ -44,13 +45,13 @@ constexpr OptionText kConvergeOptions[] = {
 
 /// Options of yat render that a variant cannot have: what is sampled and written is said otherwise.
 constexpr std::string_view kNotForVariants[] = {
-    "--output", "--spp",      "--samples-range", "--time",  "--noise-target",
-    "--seed",   "--tonemap",  "--exposure",      "--aov",   "--stats",
-    "--trace",  "--progress", "--verbose",       "--quiet", "--help"};
+    "--output", "--spp",   "--samples-range", "--time",     "--seed",    "--tonemap", "--exposure",
+    "--aov",    "--stats", "--trace",         "--progress", "--verbose", "--quiet",   "--help"};
 
 /// Options that leave the compiled scene as it is. What is not here gets a scene of its own.
-constexpr std::string_view kOfThePlan[] = {"--sampler", "--sample-set",     "--max-depth",
-                                           "--threads", "--light-sampling", "--roulette"};
+constexpr std::string_view kOfThePlan[] = {"--sampler",      "--sample-set",     "--max-depth",
+                                           "--threads",      "--light-sampling", "--roulette",
+                                           "--noise-target", "--adaptive"};
 
 template <size_t N>
 bool among(std::string_view name, const std::string_view (&names)[N]) {
@@ -152,6 +153,10 @@ std::vector<uint32_t> read_ladder(const std::string& text) {
 void add_reference_options(const std::string& scene, std::vector<GivenOption> shared,
                            ConvergeArguments& to) {
   // Of what is known, it converges fastest; its variance is measured, whatever the sampler.
+  // It has its number of samples.
+  std::erase_if(shared, [](const GivenOption& o) {
+    return o.name == "--noise-target" || o.name == "--adaptive";
+  });
   if (std::none_of(shared.begin(), shared.end(),
                    [](const GivenOption& o) { return o.name == "--sampler"; }))
     shared = laid_over(std::vector<GivenOption>{{"--sampler", "sobol"}}, shared);
@@ -241,7 +246,10 @@ ConvergeArguments parse_converge_arguments(const std::vector<std::string>& words
       if (to.variants[i].name == to.variants.back().name)
         throw UsageError(fmt::format("--variant: two are called \"{}\"; give each its name", text));
   }
-  for (ConvergeVariant& variant : to.variants) variant.arguments.verbosity = to.verbosity;
+  for (ConvergeVariant& variant : to.variants) {
+    variant.arguments.verbosity = to.verbosity;
+    variant.ladder = variant.to_noise() ? std::vector{kTargetRung} : to.ladder;
+  }
   to.shared.arguments.verbosity = Verbosity::kQuiet;
   return to;
 }

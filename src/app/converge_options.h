@@ -17,6 +17,10 @@ struct ConvergeVariant {
   std::string options;    ///< all that hold for it, in one order
   std::string scene_key;  ///< variants with the same key render the same compiled scene
   Arguments arguments;
+  /// Numbers of samples per pixel, ascending; with a noise target, which decides them itself,
+  /// kTargetRung alone.
+  std::vector<uint32_t> ladder;
+  bool to_noise() const { return arguments.noise_target.has_value(); }
 };
 
 struct ConvergeArguments {
@@ -25,7 +29,7 @@ struct ConvergeArguments {
   ConvergeVariant shared;                 ///< what holds for all; makes the reference
   std::string reference;                  ///< a picture; empty: one is made
   uint32_t runs = 16;
-  std::vector<uint32_t> ladder;  ///< ascending
+  std::vector<uint32_t> ladder;  ///< ascending; of variants without a noise target
   double time_per_run = 0;       ///< [s]; 0: no limit
   uint32_t seed = 0;
   bool restart = false;

@@ -76,7 +76,7 @@ Json experiment_header(const ConvergeArguments& arguments, const ConvergeRenders
 
 RunRecord record_of_run(const ConvergeArguments& arguments, const ConvergeRenders& renders,
                         const ConvergeVariant& variant, uint32_t spp, uint32_t run,
-                        const RunResult& result, const Reference& reference) {
+                        const RunResult& result, double write_seconds, const Reference& reference) {
   RunRecord record;
   record.variant = variant.name;
   record.spp = spp;
@@ -86,7 +86,7 @@ RunRecord record_of_run(const ConvergeArguments& arguments, const ConvergeRender
   record.seconds = result.totals.seconds;
   record.cpu_seconds = result.cpu_seconds;
   record.error = image_error(result.image, reference.image);
-  if (run == 0) record.hdr_flip = hdr_flip(result.image, reference.image).mean;
+  record.hdr_flip = hdr_flip(result.image, reference.image).mean;
 
   const ConvergeScene& scene = renders.scene(variant);
   const Plan plan = renders.plan(variant, spp, record.seed);
@@ -105,17 +105,14 @@ RunRecord record_of_run(const ConvergeArguments& arguments, const ConvergeRender
        {{"read", time.read},
         {"build", time.build},
         {"render", record.seconds},
-        {"write", 0.},
+        {"write", write_seconds},
         {"first_pixel", time.read + time.build}}},
       {"peak_rss", peak_memory_bytes()},
       {"memory",
        {{"scene", scene.bytes},
         {"film", result.film_bytes},
         {"work", result.totals.scratch_bytes}}},
-      {"rays",
-       {{"camera", stats.camera_rays},
-        {"bounce", stats.bounce_rays},
-        {"shadow", stats.shadow_rays}}},
+      {"rays", rays_json(stats)},
       {"lanes", lanes_json(stats)},
       {"stages", stages_json(stats)},
       {"dropped", dropped_of(result.totals)},
@@ -123,6 +120,7 @@ RunRecord record_of_run(const ConvergeArguments& arguments, const ConvergeRender
        {{"hash", fmt::format("{:016x}", reference.hash)},
         {"spp", reference.samples_per_pixel},
         {"variance", reference.variance.empty() ? Json() : Json(mean_variance(reference))}}}};
+  if (result.totals.noise) details["noise"] = noise_json(result.totals);
   record.details = details.dump(-1, ' ', false, Json::error_handler_t::replace);
   return record;
 }

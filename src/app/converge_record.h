@@ -16,10 +16,10 @@ nlohmann::ordered_json experiment_header(const ConvergeArguments& arguments,
                                          const ConvergeRenders& renders,
                                          const std::optional<Reference>& given);
 
-/// The record of a run that is done. `visible`: compute HDR-FLIP too, which is slow.
+/// The record of a run that is done. write_seconds: what it took to write its picture.
 RunRecord record_of_run(const ConvergeArguments& arguments, const ConvergeRenders& renders,
                         const ConvergeVariant& variant, uint32_t spp, uint32_t run,
-                        const RunResult& result, const Reference& reference);
+                        const RunResult& result, double write_seconds, const Reference& reference);
 
 /// Samples per pixel of a reference that is made, and in how many parts of independent seeds.
 inline constexpr uint32_t kReferenceFactor = 64, kReferenceParts = 8;

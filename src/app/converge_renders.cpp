@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/machine.h"
+#include "app/noise_passes.h"
 #include "base/error.h"
 #include "kernels/dispatch.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 Arguments with(const Arguments& arguments, uint32_t spp, uint32_t seed) {
   Arguments changed = arguments;
-  changed.samples_per_pixel = spp;
+  if (!changed.noise_target) changed.samples_per_pixel = spp;
   changed.seed = seed;
   return changed;
 }
@@ -34,7 +35,6 @@ ConvergeRenders::ConvergeRenders(const ConvergeArguments& arguments, Console& co
     load(of_scene, *scene->kernels, *threads, console, diagnostics, scene->loaded);
     diagnostics.flush_repeats();
     scene->bytes = scene->loaded.scene.bytes();
-    require_film_memory(scene->loaded.scene.film, 0);
   };
   Verbosity verbosity = arguments.verbosity;
   for (const ConvergeVariant& variant : arguments.variants) {
@@ -42,6 +42,9 @@ ConvergeRenders::ConvergeRenders(const ConvergeArguments& arguments, Console& co
     verbosity = Verbosity::kQuiet;
   }
   if (arguments.reference.empty()) prepare(arguments.shared, verbosity);
+  for (const ConvergeVariant& variant : arguments.variants)
+    require_film_memory(scene(variant).loaded.scene.film, 0,
+                        film_parts(variant.to_noise(), variant.arguments.adaptive));
   const FilmSettings& first = scene(arguments.variants.front()).loaded.scene.film;
   for (const ConvergeVariant& variant : arguments.variants) {
     const FilmSettings& film = scene(variant).loaded.scene.film;
@@ -67,13 +70,21 @@ RunResult ConvergeRenders::run(const ConvergeVariant& variant, uint32_t spp, uin
                                Progress& progress, std::atomic<bool>& stop) const {
   const Scene& compiled = scene(variant).loaded.scene;
   const Plan planned = plan(variant, spp, seed);
-  Film film(compiled.film.crop_width(), compiled.film.crop_height());
+  const bool to_noise = variant.to_noise();
+  FilmParts film(compiled.film.crop_width(), compiled.film.crop_height(), 0, to_noise ? 2 : 1);
   PassLimits limits;
   limits.samples = {0, spp};
+  if (to_noise) {
+    limits.samples.end = kLastSample;
+    limits.unlimited = true;
+    limits.noise_target = *variant.arguments.noise_target;
+    limits.adaptive = variant.arguments.adaptive;
+  }
+  const PassContext context{compiled, planned, pool(variant), progress, stop};
   RunResult result;
   const double before = cpu_seconds();
-  result.totals =
-      render_passes({compiled, planned, pool(variant), progress, stop}, limits, film, nullptr);
+  result.totals = to_noise ? render_to_noise(context, limits, film)
+                           : render_passes(context, limits, film[0].film, nullptr);
   result.cpu_seconds = cpu_seconds() - before;
   const uint64_t samples = film.total_samples();
   if (samples == 0 && !stop)

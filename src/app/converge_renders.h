@@ -9,6 +9,7 @@
 #include "app/converge_options.h"
 #include "app/load.h"
 #include "app/passes.h"
+#include "converge/ladder.h"
 #include "metrics/image.h"
 
 namespace yat {
@@ -41,6 +42,7 @@ class ConvergeRenders {
   Plan plan(const ConvergeVariant& variant, uint32_t spp, uint32_t seed) const;
   uint32_t threads(const ConvergeVariant& variant) const { return pool(variant).threads(); }
 
+  /// spp: of the variant's ladder, or others; a variant with a noise target takes what that needs.
   /// Throws Error if all samples were dropped. Not complete if `stop` was set meanwhile.
   RunResult run(const ConvergeVariant& variant, uint32_t spp, uint32_t seed, Progress& progress,
                 std::atomic<bool>& stop) const;

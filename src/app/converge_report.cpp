@@ -23,15 +23,22 @@ ConvergeSummary summary_of(const FinishedRuns& runs) {
   Experiment experiment;
   for (const ConvergeVariant& variant : runs.arguments.variants)
     experiment.variants.push_back(variant.name);
-  experiment.ladder = runs.arguments.ladder;
+  for (const ConvergeVariant& variant : runs.arguments.variants)
+    experiment.ladder.insert(experiment.ladder.end(), variant.ladder.begin(), variant.ladder.end());
+  std::sort(experiment.ladder.begin(), experiment.ladder.end());
+  experiment.ladder.erase(std::unique(experiment.ladder.begin(), experiment.ladder.end()),
+                          experiment.ladder.end());
   experiment.runs = runs.folder.runs();
   experiment.reference = &runs.reference;
   for (const PixelMoments& moments : runs.moments) experiment.moments.push_back(&moments);
   return summarize(experiment);
 }
 
+constexpr double kAboutEqual = .75;
+
 /// One picture of each variant with as many samples as fit into the least time that any of them
-/// took at the rung that all have. By CPU time: others may use the machine.
+/// took at the rung that all have. By CPU time: others may use the machine. A noise target takes
+/// the time that it takes: its variant is shown if that is about the same.
 std::vector<EqualTimePicture> equal_time_pictures(const FinishedRuns& runs,
                                                   const ConvergeSummary& summary, Console& console,
                                                   std::atomic<bool>& stop) {
@@ -46,10 +53,11 @@ std::vector<EqualTimePicture> equal_time_pictures(const FinishedRuns& runs,
         std::find_if(runs.arguments.variants.begin(), runs.arguments.variants.end(),
                      [&](const ConvergeVariant& a) { return a.name == v.name; });
     const double share = rung.cpu_seconds > 0 ? budget / rung.cpu_seconds : 1;
+    if (variant->to_noise() && share < kAboutEqual) continue;
     const auto spp = uint32_t(std::max(1., std::round(rung.spp * share)));
-    // A seed that no run has: there is no rung of 0 samples.
+    // A seed that no run has.
     const RunResult result =
-        runs.renders.run(*variant, spp, run_seed(runs.arguments.seed, 0, 1), silent, stop);
+        runs.renders.run(*variant, spp, run_seed(runs.arguments.seed, kNoRung, 1), silent, stop);
     if (stop) return {};
     pictures.push_back({v.name, result.image, result.samples_per_pixel, result.cpu_seconds});
   }

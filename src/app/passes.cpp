@@ -8,7 +8,6 @@ namespace yat {
 namespace {
 
 constexpr uint32_t kDefaultSamples = 64;
-constexpr uint32_t kLastSample = uint32_t(1) << 30;
 constexpr uint64_t kFirstPassSamples = uint64_t(1) << 23;
 
 }  // namespace

@@ -9,6 +9,15 @@
 
 namespace yat {
 
+/// The largest index of a sample that there is, and one.
+inline constexpr uint32_t kLastSample = uint32_t(1) << 30;
+
+/// Films that a render to a noise target needs: two halves; a pilot has two more, and both are
+/// joined to estimate its error. Without a target one is enough.
+constexpr uint32_t film_parts(bool to_noise, Adaptive adaptive) {
+  return !to_noise ? 1 : adaptive == Adaptive::kOff ? 2 : 6;
+}
+
 /// Which samples of every pixel to take and when to stop.
 struct PassLimits {
   SampleRange samples{0, 64};

@@ -135,9 +135,7 @@ ExitCode render_command(const Arguments& arguments, Console& console) {
     if (!file.empty()) require_writable(file);
 
   const bool to_noise = arguments.noise_target.has_value();
-  // Two halves; a pilot has two more, and both are joined to estimate its error.
-  const uint32_t parts = !to_noise ? 1 : arguments.adaptive == Adaptive::kOff ? 2 : 6;
-  require_film_memory(report.film, arguments.features, parts);
+  require_film_memory(report.film, arguments.features, film_parts(to_noise, arguments.adaptive));
   FilmParts film(report.film.crop_width(), report.film.crop_height(), arguments.features,
                  to_noise ? 2 : 1);
   report.film_bytes = film.bytes();

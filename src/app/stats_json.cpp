@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/build_info.h"
@@ -9,11 +10,20 @@
 #include "app/option_names.h"
 #include "app/report.h"
 #include "app/stats_parts.h"
+#include "wavefront/stages.h"
 
 namespace yat {
 
 namespace {
 using Json = nlohmann::ordered_json;
+}
+
+Json rays_json(const RenderStats& stats) {
+  const uint64_t sampled = stats.stages[uint32_t(Stage::kLightSample)].rows;
+  return {{"camera", stats.camera_rays},
+          {"bounce", stats.bounce_rays},
+          {"shadow", stats.shadow_rays},
+          {"skipped_shadow", sampled - std::min(sampled, stats.shadow_rays)}};
 }
 
 Json lanes_json(const RenderStats& stats) {
@@ -32,10 +42,20 @@ Json stages_json(const RenderStats& stats) {
   for (uint32_t i = 0; i < kStages; ++i) {
     const StageCount& stage = stats.stages[i];
     if (stage.calls == 0 && stage.nanoseconds == 0) continue;
-    stages[std::string(stage_name(Stage(i)))] = {
-        {"time", double(stage.nanoseconds) * 1e-9}, {"items", stage.rows}, {"calls", stage.calls}};
+    stages[std::string(stage_name(Stage(i)))] = {{"time", double(stage.nanoseconds) * 1e-9},
+                                                 {"items", stage.rows},
+                                                 {"bytes", stage.rows * stage_row_bytes(Stage(i))},
+                                                 {"calls", stage.calls}};
   }
   return stages;
+}
+
+Json noise_json(const RenderTotals& totals) {
+  const NoiseEstimate& noise = *totals.noise;
+  return {{"target", totals.noise_target}, {"reached", totals.noise_reached()},
+          {"relmse", noise.rel_mse},       {"relmse_interval", {noise.low(), noise.high()}},
+          {"epsilon", noise.epsilon},      {"mse", noise.mse},
+          {"adaptive", totals.adaptive}};
 }
 
 Json build_json(std::string_view isa, uint32_t lanes) {
@@ -110,16 +130,8 @@ std::string stats_json(const RenderReport& report) {
   record["passes"] = report.totals.passes;
   record["interrupted"] = report.interrupted;
   record["timed_out"] = report.totals.timed_out;
-  if (const auto& noise = report.totals.noise)
-    record["noise"] = {{"target", report.totals.noise_target},
-                       {"reached", report.totals.noise_reached()},
-                       {"relmse", noise->rel_mse},
-                       {"relmse_interval", {noise->low(), noise->high()}},
-                       {"epsilon", noise->epsilon},
-                       {"mse", noise->mse},
-                       {"adaptive", report.totals.adaptive}};
-  record["rays"] = {
-      {"camera", stats.camera_rays}, {"bounce", stats.bounce_rays}, {"shadow", stats.shadow_rays}};
+  if (report.totals.noise) record["noise"] = noise_json(report.totals);
+  record["rays"] = rays_json(stats);
   record["lanes"] = lanes_json(stats);
   record["stages"] = stages_json(stats);
   record["dropped"] = dropped_of(report);

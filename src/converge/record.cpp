@@ -72,7 +72,7 @@ RunRecord record_of(const Json& object) {
 
 std::string_view csv_header() {
   return "variant,spp,run,seed,seconds,cpu_seconds,mse,relmse,relmse_trimmed,mape,bias,hdr_flip,"
-         "outliers,ttuv";
+         "outliers,ttuv,samples_per_pixel";
 }
 
 std::string csv_line(const RunRecord& record) {
@@ -83,11 +83,11 @@ std::string csv_line(const RunRecord& record) {
   }
   const ImageError& e = record.error;
   return fmt::format(
-      "\"{}\",{},{},{},{:.6f},{:.6f},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{:.9g}", name,
+      "\"{}\",{},{},{},{:.6f},{:.6f},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{:.9g},{:.9g}", name,
       record.spp, record.run, record.seed, record.seconds, record.cpu_seconds, e.mse, e.rel_mse,
       e.rel_mse_trimmed, e.mape, e.bias,
       record.hdr_flip ? fmt::format("{:.9g}", *record.hdr_flip) : "", e.outliers,
-      e.mse * record.seconds);
+      e.mse * record.seconds, record.samples_per_pixel);
 }
 
 }  // namespace yat

@@ -13,15 +13,15 @@ namespace yat {
 
 struct RunRecord {
   std::string variant;
-  uint32_t spp = 0;                ///< the rung
+  uint32_t spp = 0;                ///< the rung, or kTargetRung
   uint32_t run = 0, seed = 0;      ///< run: from 0
   double samples_per_pixel = 0;    ///< that the picture holds
   double seconds = 0;              ///< wall time of rendering alone
   double cpu_seconds = 0;          ///< of all threads, of rendering alone
   ImageError error;                ///< as measured: the reference's variance is still in it
-  std::optional<double> hdr_flip;  ///< of the first run of a rung
+  std::optional<double> hdr_flip;  ///< mean over pixels
   /// The rest of the record as the text of a JSON object: scene, build, machine, settings, times,
-  /// rays, lanes, stages, drops, reference.
+  /// rays, lanes, stages, drops, noise, reference.
   std::string details;
 };
 

@@ -7,6 +7,7 @@
 
 #include "converge/error_pictures.h"
 #include "converge/html.h"
+#include "converge/ladder.h"
 #include "converge/summary_text.h"
 
 namespace yat {
@@ -110,7 +111,7 @@ std::string rung_table(const ConvergeSummary& s) {
   for (const VariantSummary& v : s.variants)
     for (const RungSummary& r : v.rungs)
       rows.push_back(
-          {name_cell(s, v), std::to_string(r.spp), std::to_string(r.runs), measured_text(r.mse),
+          {name_cell(s, v), samples_text(r), std::to_string(r.runs), measured_text(r.mse),
            measured_text(r.rel_mse),
            number(r.rel_mse_trimmed) + (r.unreliable ? " (unreliable)" : ""), number(r.mape),
            r.hdr_flip ? number(*r.hdr_flip) : "-", number(r.outliers), percent(r.reference_share),
@@ -215,13 +216,14 @@ Plot error_over_cpu_time(const ConvergeSummary& summary) {
 }
 
 Plot error_over_samples(const ConvergeSummary& summary) {
-  Plot plot = error_plot(summary, [](const RungSummary& r) { return double(r.spp); });
+  Plot plot = error_plot(summary, [](const RungSummary& r) { return r.samples; });
   plot.title = "Error against samples";
   plot.x_label = "samples per pixel";
   plot.guide_slope = -.5;
   for (const VariantSummary& v : summary.variants)
     for (const RungSummary& r : v.rungs)
-      if (std::find(plot.x_ticks.begin(), plot.x_ticks.end(), double(r.spp)) == plot.x_ticks.end())
+      if (r.spp != kTargetRung &&
+          std::find(plot.x_ticks.begin(), plot.x_ticks.end(), double(r.spp)) == plot.x_ticks.end())
         plot.x_ticks.push_back(r.spp);
   return plot;
 }
@@ -244,7 +246,7 @@ std::string report_html(const ReportPage& page) {
       "is the ratio of times to equal error; [95 % interval, bootstrap over runs]; times with ~ "
       "are extrapolated. MSE is ruled by bright pixels, relMSE is not. On a machine that others "
       "use too, go by CPU time.</p>\n",
-      first.rungs[first.headline].spp, headline_table(s));
+      samples_text(first.rungs[first.headline]), headline_table(s));
   out += "<div class=\"plots\">\n" + svg_plot(error_over_time(s)) +
          svg_plot(error_over_cpu_time(s)) + svg_plot(error_over_samples(s)) + "</div>\n";
   if (!page.pictures.empty()) out += picture_table(page);
@@ -257,7 +259,7 @@ std::string report_html(const ReportPage& page) {
       "<p>MSE and relMSE: means over runs, the reference's variance subtracted where it is above "
       "1 %; reference: its share of the MSE. Trimmed: relMSE without the worst 0.1 % of "
       "pixels. Outliers: pixels per run that are brighter than the reference by more than 20 "
-      "deviations. HDR-FLIP: of the first run.</p>\n";
+      "deviations. ~: a noise target decided how many samples; the mean.</p>\n";
   out += "<h2>Costs</h2>\n" + cost_table(s);
 
   std::vector<std::vector<std::string>> rows;

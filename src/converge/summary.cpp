@@ -7,6 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "converge/ladder.h"
+
 namespace yat {
 
 namespace {
@@ -22,8 +24,8 @@ constexpr double kBiasShare = .0025;  // Of pixels; Mitsuba's tests accept as ma
 /// The runs of a rung as columns, in the order of their seeds.
 struct Runs {
   uint32_t spp = 0;
-  std::vector<double> mse, rel_mse, trimmed, mape, seconds, cpu_seconds, outliers, bias;
-  std::optional<double> hdr_flip;
+  std::vector<double> mse, rel_mse, trimmed, mape, seconds, cpu_seconds, outliers, bias, samples;
+  std::vector<double> hdr_flip;
   double epsilon = 0;
   uint32_t count() const { return uint32_t(mse.size()); }
 };
@@ -46,7 +48,8 @@ Runs runs_of(const Experiment& experiment, const std::string& variant, uint32_t 
     runs.cpu_seconds.push_back(r->cpu_seconds);
     runs.outliers.push_back(double(r->error.outliers));
     runs.bias.push_back(r->error.bias);
-    if (r->hdr_flip && !runs.hdr_flip) runs.hdr_flip = r->hdr_flip;
+    runs.samples.push_back(r->samples_per_pixel);
+    if (r->hdr_flip) runs.hdr_flip.push_back(*r->hdr_flip);
     runs.epsilon = r->error.epsilon;
   }
   return runs;
@@ -89,6 +92,7 @@ RungSummary summarize_rung(const Runs& r, const Runs& first, const Reference& re
   RungSummary s;
   s.spp = r.spp;
   s.runs = r.count();
+  s.samples = mean_of(r.samples);
   s.mse_measured = mean_of(r.mse);
   s.reference_share = all.reference_variance / s.mse_measured;
   const double off = subtracted(r, all), off_first = subtracted(first, all);
@@ -104,7 +108,7 @@ RungSummary summarize_rung(const Runs& r, const Runs& first, const Reference& re
   s.rel_mse_trimmed = mean_of(r.trimmed);
   s.unreliable = s.rel_mse_untrimmed > kUnreliable * s.rel_mse_trimmed;
   s.mape = mean_of(r.mape);
-  s.hdr_flip = r.hdr_flip;
+  if (!r.hdr_flip.empty()) s.hdr_flip = mean_of(r.hdr_flip);
   s.outliers = mean_of(r.outliers);
   s.seconds = median_of(r.seconds);
   s.fastest = *std::min_element(r.seconds.begin(), r.seconds.end());
@@ -171,6 +175,23 @@ void add_costs(const Experiment& experiment, VariantSummary& s) {
   }
 }
 
+/// What of the first variant a rung is compared with: the same rung; where a noise target decides
+/// about samples, the one with the nearest number of them.
+const Runs* counterpart(const Runs& r, const std::vector<Runs>& first) {
+  const Runs* best = nullptr;
+  double least = INFINITY;
+  for (const Runs& f : first) {
+    const bool same = f.spp == r.spp;
+    if (!same && f.spp != kTargetRung && r.spp != kTargetRung) continue;
+    const double apart = same ? -1 : std::fabs(std::log(mean_of(f.samples) / mean_of(r.samples)));
+    if (apart < least) {
+      least = apart;
+      best = &f;
+    }
+  }
+  return best;
+}
+
 VariantSummary summarize_variant(const Experiment& experiment, const std::string& name,
                                  const std::vector<Runs>& rungs, const std::vector<Runs>& first,
                                  const PixelMoments* moments, const ConvergeSummary& all) {
@@ -178,10 +199,8 @@ VariantSummary summarize_variant(const Experiment& experiment, const std::string
   s.name = name;
   std::vector<double> seconds, rel_mse;
   for (const Runs& r : rungs) {
-    const auto same =
-        std::find_if(first.begin(), first.end(), [&](const Runs& f) { return f.spp == r.spp; });
-    s.rungs.push_back(
-        summarize_rung(r, same == first.end() ? Runs() : *same, *experiment.reference, all));
+    const Runs* const measure = counterpart(r, first);
+    s.rungs.push_back(summarize_rung(r, measure ? *measure : Runs(), *experiment.reference, all));
     seconds.push_back(s.rungs.back().seconds);
     rel_mse.push_back(s.rungs.back().rel_mse.value);
   }
@@ -213,18 +232,18 @@ void add_warnings(ConvergeSummary& all) {
   for (const VariantSummary& v : all.variants) {
     const RungSummary& top = v.top();
     if (top.reference_share > kLargeShare)
-      warn(
-          fmt::format("{}: {:.0f} % of the MSE at {} spp is the reference's own variance: it is "
-                      "subtracted, but the rest is uncertain. Take a reference of more samples.",
-                      v.name, 100 * top.reference_share, top.spp));
+      warn(fmt::format(
+          "{}: {:.0f} % of the MSE at {:.6g} spp is the reference's own variance: it is "
+          "subtracted, but the rest is uncertain. Take a reference of more samples.",
+          v.name, 100 * top.reference_share, top.samples));
     if (!(top.mse.value > 0))
-      warn(fmt::format("{}: the MSE at {} spp is not above the reference's variance.", v.name,
-                       top.spp));
+      warn(fmt::format("{}: the MSE at {:.6g} spp is not above the reference's variance.", v.name,
+                       top.samples));
     if (top.unreliable)
-      warn(
-          fmt::format("{}: unreliable: relMSE at {} spp is {:.3g}, but {:.3g} without the worst "
-                      "0.1 % of pixels: rare bright samples make the error.",
-                      v.name, top.spp, top.rel_mse_untrimmed, top.rel_mse_trimmed));
+      warn(fmt::format(
+          "{}: unreliable: relMSE at {:.6g} spp is {:.3g}, but {:.3g} without the worst "
+          "0.1 % of pixels: rare bright samples make the error.",
+          v.name, top.samples, top.rel_mse_untrimmed, top.rel_mse_trimmed));
     // Where the interval reaches down to it, chance may have made it flat.
     if (v.slope.interval.known() ? v.slope.interval.low > kFlatSlope : v.slope.value > kFlatSlope)
       warn(
@@ -262,9 +281,10 @@ ConvergeSummary summarize(const Experiment& experiment) {
         summarize_variant(experiment, experiment.variants[i], rungs, first,
                           i < experiment.moments.size() ? experiment.moments[i] : nullptr, all));
   }
-  // Variants are compared where all of them have been.
+  // Variants are compared where all of them have been; a noise target is the only rung there.
   uint32_t common = UINT32_MAX;
-  for (const VariantSummary& v : all.variants) common = std::min(common, v.top().spp);
+  for (const VariantSummary& v : all.variants)
+    if (v.top().spp != kTargetRung) common = std::min(common, v.top().spp);
   for (VariantSummary& v : all.variants)
     while (v.headline + 1 < v.rungs.size() && v.rungs[v.headline + 1].spp <= common) ++v.headline;
   add_warnings(all);

@@ -24,10 +24,11 @@ struct Measured {
   Interval interval;
 };
 
-/// One variant at one number of samples. Errors are means over runs, less the reference's variance
-/// where that is above 1 % of them; times are medians.
+/// One variant at one number of samples, or at its noise target. Errors are means over runs, less
+/// the reference's variance where that is above 1 % of them; times are medians.
 struct RungSummary {
-  uint32_t spp = 0, runs = 0;
+  uint32_t spp = 0, runs = 0;  ///< spp: see RunRecord
+  double samples = 0;          ///< per pixel, mean over runs
   Measured mse, rel_mse;
   double mse_measured = 0;     ///< the reference's variance still in it
   double reference_share = 0;  ///< of mse_measured that is the reference's variance
@@ -36,8 +37,10 @@ struct RungSummary {
   std::optional<double> hdr_flip;
   double outliers = 0;  ///< pixels per run
   double seconds = 0, fastest = 0, seconds_deviation = 0, cpu_seconds = 0;
-  Measured ttuv, ttuv_cpu;              ///< by wall and by CPU time
-  Measured ttuv_ratio, ttuv_cpu_ratio;  ///< to the first variant's, from the same seeds
+  Measured ttuv, ttuv_cpu;  ///< by wall and by CPU time
+  /// To the first variant's, from the same seeds. Where either is at a noise target, to the first
+  /// variant's rung of the nearest number of samples, whose seeds are others.
+  Measured ttuv_ratio, ttuv_cpu_ratio;
   /// relMSE x CPU time, ratio to the first variant's: what the ratio of TTUV is without the rule of
   /// bright pixels.
   Measured rel_cpu_ratio;
@@ -48,8 +51,9 @@ struct RungSummary {
 
 struct VariantSummary {
   std::string name;
-  std::vector<RungSummary> rungs;         ///< those with runs, by ascending spp
-  size_t headline = 0;                    ///< index of the highest rung that all variants have
+  std::vector<RungSummary> rungs;  ///< those with runs, by ascending spp
+  /// Index of the highest rung that all variants have that have rungs; else the noise target.
+  size_t headline = 0;
   Measured slope;                         ///< of log RMSE over log spp, rungs from 4 samples on
   std::array<TimeToError, 2> to_rel_mse;  ///< to kTargets, wall time [s]
   /// (mean of runs - reference) / reference, of the whole picture at the highest rung, and its
@@ -66,7 +70,7 @@ inline constexpr std::array<double, 2> kTargets = {1e-2, 1e-3};  ///< relMSE
 
 struct Experiment {
   std::vector<std::string> variants;
-  std::vector<uint32_t> ladder;  ///< ascending
+  std::vector<uint32_t> ladder;  ///< all rungs, ascending
   std::span<const RunRecord> runs;
   const Reference* reference = nullptr;
   /// Per variant: the pixels of its highest rung, or of none.

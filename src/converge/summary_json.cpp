@@ -15,6 +15,7 @@ Json measured(const Measured& m) {
 Json rung_json(const RungSummary& r) {
   return {
       {"spp", r.spp},
+      {"samples_per_pixel", r.samples},
       {"runs", r.runs},
       {"mse", measured(r.mse)},
       {"mse_measured", r.mse_measured},

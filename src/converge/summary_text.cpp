@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "converge/ladder.h"
+
 namespace yat {
 
 namespace {
@@ -51,6 +53,10 @@ std::string seconds_text(double seconds) {
                           : fmt::format("{:.3g} days", seconds / 86400);
 }
 
+std::string samples_text(const RungSummary& rung) {
+  return rung.spp == kTargetRung ? fmt::format("~{:.4g}", rung.samples) : std::to_string(rung.spp);
+}
+
 std::string measured_text(const Measured& m) {
   if (!std::isfinite(m.value)) return "-";
   if (!m.interval.known()) return number(m.value);
@@ -69,16 +75,16 @@ std::string converge_tables(const ConvergeSummary& summary) {
       {"variant", "spp", "runs", "RMSE", "relMSE", "seconds", "CPU s", "TTUV", "TTUV, CPU"}};
   for (const VariantSummary& v : summary.variants)
     for (const RungSummary& r : v.rungs)
-      table.push_back({v.name, std::to_string(r.spp), std::to_string(r.runs),
+      table.push_back({v.name, samples_text(r), std::to_string(r.runs),
                        number(std::sqrt(r.mse.value)), number(r.rel_mse.value), number(r.seconds),
                        number(r.cpu_seconds), measured_text(r.ttuv), number(r.ttuv_cpu.value)});
   std::string text = aligned(table);
 
-  const uint32_t spp = summary.variants.front().rungs[summary.variants.front().headline].spp;
+  const VariantSummary& first = summary.variants.front();
   text += fmt::format(
       "\nAt {} spp; ratio: of TTUV to the first variant's, below 1 is less time to the same error; "
       "[95 % interval]; ~ extrapolated\n",
-      spp);
+      samples_text(first.rungs[first.headline]));
   table = {{"variant", "TTUV ratio", "by CPU time", "relMSE x CPU", "slope", "to relMSE 1e-2",
             "to 1e-3", "outliers", "trimmed"}};
   for (const VariantSummary& v : summary.variants) {

@@ -7,7 +7,7 @@ from report.common import count, number, table
 def report(stem, data, plots):
     """Markdown lines; adds SVG texts to plots by file name."""
     render = data["time"]["render"]
-    rays = sum(data["rays"].values())
+    rays = sum(data["rays"][kind] for kind in ("camera", "bounce", "shadow"))
     width, height = data["resolution"]
     machine = data["machine"]
     scene = data["scene"].split("/")[-1]
