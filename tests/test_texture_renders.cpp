@@ -299,16 +299,18 @@ TEST_P(TextureRenders, NormalMapsTurnAWall) {
   const std::string grey = "Material \"matte\" \"color Kd\" [.5 .5 .5]",
                     along_x = "0 0 1 0 1 1 0 1", along_y = "0 0 0 -1 1 -1 1 0";
   const double flat = mean(grey + "\n", along_x);
-  for (const glm::dvec3& n :
-       {glm::dvec3(-.6, 0, .8), glm::dvec3(0, .6, .8), glm::dvec3(.48, -.36, .8)}) {
-    write_image("texture_renders", "normal.exr", 4, 4, 3, OIIO::TypeDesc::FLOAT,
+  const std::pair<const char*, glm::dvec3> normals[] = {
+      {"left.exr", {-.6, 0, .8}}, {"up.exr", {0, .6, .8}}, {"both.exr", {.48, -.36, .8}}};
+  for (const auto& [name, normal] : normals) {
+    const glm::dvec3 n = normal;
+    write_image("texture_renders", name, 4, 4, 3, OIIO::TypeDesc::FLOAT,
                 [&](int, int, int c) { return float(.5 * n[c] + .5); });
     const std::string bent =
         "Texture \"n\" \"float\" \"normalmap\" \"string filename\" "
-        "[\"normal.exr\"]\n" +
-        grey + " \"texture bumpmap\" [\"n\"]\n";
+        "[\"" +
+        std::string(name) + "\"]\n" + grey + " \"texture bumpmap\" [\"n\"]\n";
     EXPECT_NEAR(mean(bent, along_x) / flat, glm::dot(n, light) / light.z, 1e-4);
-    // u upwards, v to the left... of it: x and y change places, one turned round.
+    // u upwards, v to the left: the map lies a quarter turn round.
     const glm::dvec3 turned = glm::dvec3(-n.y, n.x, n.z);
     EXPECT_NEAR(mean(bent, along_y) / flat, glm::dot(turned, light) / light.z, 1e-4);
   }

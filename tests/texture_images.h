@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <functional>
@@ -26,7 +27,11 @@ inline std::string write_image(const std::string& folder, const std::string& nam
       for (int c = 0; c < channels; ++c) pixel[size_t(c)] = value(x, y, c);
       image.setpixel(x, y, pixel.data());
     }
-  EXPECT_TRUE(image.write(path.string())) << image.geterror();
+  // Tests run side by side: whoever reads sees a whole file.
+  std::filesystem::path own = path;
+  own.replace_filename(std::to_string(::getpid()) + name);
+  EXPECT_TRUE(image.write(own.string())) << image.geterror();
+  std::filesystem::rename(own, path);
   return path.string();
 }
 
