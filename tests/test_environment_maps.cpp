@@ -120,7 +120,8 @@ TEST_P(LightMaps, GammaActsOnBands) {
         compile_text(view_text("0 0 0", "1 0 0", 50, 8, 8) +
                          image_text(picture, "\"float gamma\" [2.2]") + "WorldEnd\n",
                      kernels(), mode);
-    const glm::dvec3 bands = to_bands(glm::dvec3(220, 60, 20) / 255., colour_model(mode).light);
+    const glm::dvec3 bands =
+        to_bands(glm::dvec3(220, 60, 20) / 255., colour_model(mode).reflectance);
     const glm::dvec3 found = seen(scene, {1, 0, 0});
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[k], std::pow(bands[k], 2.2), 1e-6) << k;
   }

@@ -49,6 +49,7 @@ EmissionCompiler::EmissionCompiler(const Description& description, const ColourM
                                    Diagnostics& diagnostics, ImageStore& images)
     : description_(description),
       colour_(of_lights(colour)),
+      pictures_(colour.reflectance),
       diagnostics_(diagnostics),
       textures_(description, colour_, diagnostics, 0, TextureUse::kLight, &images) {}
 
@@ -76,7 +77,7 @@ LightColor EmissionCompiler::color(Parameters& p, EmissionLook& look) {
 }
 
 uint32_t EmissionCompiler::distribution(Parameters& p) {
-  std::optional<LightPicture> picture = read_distribution(p, colour_.light, description_);
+  std::optional<LightPicture> picture = read_distribution(p, pictures_, description_);
   if (!picture) return kNone;
   const auto shines = [](const glm::vec3& c) { return c.x > 0 || c.y > 0 || c.z > 0; };
   if (std::none_of(picture->texels.begin(), picture->texels.end(), shines)) {

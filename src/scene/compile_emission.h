@@ -37,6 +37,7 @@ class EmissionCompiler {
  private:
   const Description& description_;
   const ColourModel colour_;  ///< lights' basis in place of reflectances'
+  const BandBasis pictures_;  ///< of pictures over directions
   Diagnostics& diagnostics_;
   TextureCompiler textures_;
   TexturePrograms programs_;

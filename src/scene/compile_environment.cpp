@@ -40,7 +40,8 @@ void compile_infinite(LightContext& light) {
   // The table by which directions are drawn has the size that yat gives it.
   p.accept({"imapmaxresolution"});
   if (name.empty()) return light.add(light_row(LightKind::kConstant, radiance));
-  const auto picture = read_light_picture(p, name, gamma, light.colour.light, light.description);
+  const auto picture =
+      read_light_picture(p, name, gamma, light.colour.reflectance, light.description);
   if (!picture) return light.add(light_row(LightKind::kConstant, radiance));
   auto map = make_light_map(to_world);
   if (!map)

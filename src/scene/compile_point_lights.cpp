@@ -85,7 +85,7 @@ void compile_point(LightContext& light) {
   const glm::dvec3 intensity = light_intensity(light, 4 * kPi);
   const glm::dvec3 from = p.triple("from", ParameterType::kPoint, glm::dvec3(0.));
   const std::optional<LightPicture> picture =
-      read_distribution(p, light.colour.light, light.description);
+      read_distribution(p, light.colour.reflectance, light.description);
   LightRow<Value> row = light_row(LightKind::kPoint, intensity);
   // YART's points do not fall off.
   const bool by_yart = light.description.dialect == Dialect::kYart;
@@ -145,7 +145,7 @@ void compile_projection(LightContext& light) {
   const std::string map_name = p.text("mapname", "");
   std::optional<LightPicture> picture;
   if (!map_name.empty())
-    picture = read_light_picture(p, map_name, 1, light.colour.light, light.description);
+    picture = read_light_picture(p, map_name, 1, light.colour.reflectance, light.description);
   if (!picture) picture = LightPicture{1, 1, {glm::vec3(1.f)}};
   LightRow<Value> row = light_row(LightKind::kProjection, intensity);
   if (!place(light, transform_point(light.entry.to_world, glm::dvec3(0.)), row) ||

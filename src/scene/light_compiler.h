@@ -56,8 +56,10 @@ void compile_infinite(LightContext& light);
 void compile_sun(LightContext& light);
 void compile_sky(LightContext& light);
 
-/// "mapname" of a light, by `basis`; empty, and an error, if it cannot be read. The gamma acts on
-/// the bands of the stored colours, as that of textures does (kernels/textures/bands.h).
+/// "mapname" of a light; empty, and an error, if it cannot be read. `basis` is that of
+/// reflectances: LuxRender's pictures are factors of the light's own spectrum (docs/decisions.md).
+/// The gamma acts on the bands of the stored colours, as that of textures does
+/// (kernels/textures/bands.h).
 std::optional<LightPicture> read_light_picture(Parameters& p, const std::string& name, double gamma,
                                                const BandBasis& basis,
                                                const Description& description);

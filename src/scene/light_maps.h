@@ -20,7 +20,7 @@ struct LightTables {
   std::vector<float> cells;
 };
 
-/// A picture in bands of lights, rows from the top.
+/// A picture in bands, a factor of what a light sends into directions; rows from the top.
 struct LightPicture {
   uint32_t width = 0, height = 0;
   std::vector<glm::vec3> texels;
