@@ -192,6 +192,24 @@ TEST_P(MaterialRenders, GlassAbsorbsByItsThickness) {
   expect_value(mean_radiance(text, 1, 4), std::exp(-.8));
 }
 
+// Rays start off the surface by roundings of its size: of a slab 80 m wide, by 2e-4 of its
+// thickness. Nothing of that is seen.
+TEST_P(MaterialRenders, AWideSlabAbsorbsByItsThickness) {
+  const std::string text =
+      "AttributeBegin\n" + light_text("1 1 1") + matte_text("0 0 0") + room_text(50) +
+      "AttributeEnd\nMakeNamedVolume \"v\" \"clear\" \"float fresnel\" [1] "
+      "\"color absorption\" [.8 .8 .8]\nInterior \"v\"\nMaterial "
+      "\"glass2\"\n" +
+      quad_text("-40 -40 0", "40 -40 0", "40 40 0", "-40 40 0") +
+      quad_text("-40 -40 -.4", "-40 40 -.4", "40 40 -.4", "40 -40 -.4") + "WorldEnd\n";
+  const std::pair<const char*, double> views[] = {{"0 0 1", 1}, {"0 1.7320508075688772 1", .5}};
+  for (const auto& [eye, cos] : views) {
+    const double exact = std::exp(-.8 * .4 / cos);
+    const Estimate e = mean_radiance(view_text(eye, "0 0 0", .01, 2, 2) + text, 1, 4);
+    EXPECT_NEAR(e.mean / exact, 1, 2e-5) << eye;
+  }
+}
+
 TEST_P(MaterialRenders, APaneReflectsOnceAndLetsTheRestThrough) {
   const std::string pane = "Material \"glass\" \"bool architectural\" [\"true\"]\n" +
                            quad_text("-2 0 -2", "2 0 -2", "2 0 2", "-2 0 2") +

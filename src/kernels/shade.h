@@ -63,6 +63,15 @@ YAT_INLINE Vec3<A> spawn_point(const Vec3<A>& pos, const Float<A>& offset, const
   return pos + xsimd::select(same_side, offset, -offset) * ng;
 }
 
+/// How far a ray that starts there has come already on its own line since it crossed the surface,
+/// whose normal it leaves at the cosine `cos` (either sign). Seen edge-on a plane would be
+/// infinitely far; a curved surface is where it bends by as much as the offset.
+template <class A>
+YAT_INLINE Float<A> way_to_spawn(const Float<A>& offset, const Float<A>& cos) {
+  constexpr float kLeastCos = 1.4e-3f;  // Root of the 32 roundings of an offset.
+  return offset / xsimd::max(xsimd::abs(cos), Float<A>(kLeastCos));
+}
+
 template <class A>
 YAT_INLINE Mask<A> is_finite_positive(const Spectrum<A>& c) {
   return is_finite_positive<A>(c.r) & is_finite_positive<A>(c.g) & is_finite_positive<A>(c.b);
@@ -254,6 +263,9 @@ void shade_scattering(const ShadeInput& in, const TransportOptions& options, Sha
     path.throughput_b = throughput.b;
     path.pdf = next.pdf;
     path.passed = zero;
+    // What absorbs does so from the surface on.
+    if constexpr (requires { Material<A>::kFilled; })
+      path.passed = way_to_spawn<A>(offset, geometric);
     UInt<A> next_vertex = vertex + UInt<A>(1u);
     if constexpr (!kDelta)
       next_vertex = xsimd::max(next_vertex, UInt<A>(options.least_depth_after_scatter));

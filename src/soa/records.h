@@ -42,8 +42,9 @@ struct PathState {
   /// Solid-angle pdf with which the last scattering vertex chose this direction; 0 where the choice
   /// had no density (camera, mirror, glass): emission then counts in full.
   Of<float> pdf;
-  /// Distance [m] from the last scattering vertex to this ray's origin: > 0 only after the path has
-  /// crossed see-through (null) surfaces, which do not scatter.
+  /// Distance [m] from the last scattering vertex to this ray's origin, along the ray. 0 but after
+  /// the path has crossed see-through (null) surfaces, which do not scatter, and within what
+  /// absorbs, where the little counts by which rays start off their surface.
   Of<float> passed;
   Of<uint32_t> slot;    ///< row of SampleSum that this path adds to
   Of<uint32_t> pixel;   ///< y << 16 | x in the full image: key of the random numbers

@@ -150,7 +150,9 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
     }
     scattered_pdf = bounce.pdf;
     scattered_at = hit->position;
-    passed = 0;
+    passed = material == MaterialKind::kAbsorbingGlass
+                 ? hit->offset / std::max(std::fabs(glm::dot(ng, wi)), 1.4e-3)
+                 : 0;
     ray = {leave(wi), glm::normalize(wi), double(kRayFar)};
     ++vertex;
     if (!material_traits(material).delta)

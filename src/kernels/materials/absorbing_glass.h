@@ -34,6 +34,8 @@ namespace YAT_ISA {
 template <class A>
 struct AbsorbingGlass : Delta<A> {
   using Parameters = AbsorbingGlassParameters<Lanes<A>::template Of>;
+  /// Ways begin at the surface, not where rays start off it.
+  static constexpr bool kFilled = true;
 
   static YAT_INLINE BsdfSample<A> sample(const Parameters& p, const BsdfView<A>& view,
                                          const Float<A>& u_lobe, const Float<A>&, const Float<A>&) {
