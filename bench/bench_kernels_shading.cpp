@@ -20,7 +20,8 @@ constexpr std::array<const char*, kMaterialKinds> kMaterialNames = {
 constexpr const char* kGeometryNames[] = {
     "triangle_flat", "triangle_vertex", "sphere", "plane", "quadric", "disk", "torus"};
 static_assert(std::size(kGeometryNames) == uint32_t(GeometryKind::kCount));
-constexpr const char* kLightNames[] = {"triangle", "sphere", "point", "distant", "mixed", "any"};
+constexpr const char* kLightNames[] = {"triangle",  "sphere", "point", "distant",
+                                       "rectangle", "mixed",  "any"};
 static_assert(std::size(kLightNames) == kLightKernels);
 
 /// What a material is timed with: its rows in the room, or, where the room has none of it, matte's

@@ -37,7 +37,14 @@ WorldBegin
     text += R"(AttributeBegin
 AreaLightSource "area" "color L" [8 8 8]
 Shape "trianglemesh" "integer indices" [0 2 1 0 3 2]
-  "point P" [-0.3 -0.3 0.98  0.3 -0.3 0.98  0.3 0.3 0.98  -0.3 0.3 0.98]
+  "point P" [-0.3 -0.3 0.98  0.3 -0.3 0.98  0.4 0.3 0.98  -0.2 0.3 0.98]
+AttributeEnd
+)";
+  if (has(LightKind::kRectangle))
+    text += R"(AttributeBegin
+AreaLightSource "area" "color L" [8 8 8]
+Shape "trianglemesh" "integer indices" [0 2 1 0 3 2]
+  "point P" [-0.3 0.32 0.98  0.3 0.32 0.98  0.3 0.92 0.98  -0.3 0.92 0.98]
 AttributeEnd
 )";
   if (has(LightKind::kSphere))

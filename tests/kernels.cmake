@@ -2,7 +2,7 @@ yat_test(stages LABELS per_isa LIBS yat_kernels glm::glm SOURCES test_stages.cpp
          test_shade_stage.cpp test_tangents.cpp)
 yat_test(materials LABELS per_isa statistics LIBS yat_kernels glm::glm SOURCES test_materials.cpp)
 yat_test(lights LABELS per_isa statistics LIBS yat_kernels glm::glm
-         SOURCES test_lights.cpp test_triangle_lights.cpp)
+         SOURCES test_lights.cpp test_rectangle_lights.cpp test_triangle_lights.cpp)
 yat_test(sampling LABELS per_isa statistics LIBS yat_kernels glm::glm
          SOURCES test_sampling.cpp test_warps.cpp)
 

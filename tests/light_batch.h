@@ -50,6 +50,19 @@ inline LightRow<Value> triangle_light(const glm::dvec3& p0, const glm::dvec3& p1
   row.kind = uint32_t(LightKind::kTriangle);
   return row;
 }
+/// b x c points where it shines.
+inline LightRow<Value> rectangle_light(const glm::dvec3& corner, const glm::dvec3& b,
+                                       const glm::dvec3& c) {
+  LightRow<Value> row = triangle_light(corner, corner + b, corner + c);
+  put(b, row.b_x, row.b_y, row.b_z);
+  put(c, row.c_x, row.c_y, row.c_z);
+  row.extra = float(glm::length(glm::cross(b, c)));
+  row.kind = uint32_t(LightKind::kRectangle);
+  return row;
+}
+inline glm::dvec3 corner_of(const LightRow<Value>& row) {
+  return {row.a_x, row.a_y, row.a_z};
+}
 inline LightRow<Value> sphere_light(const glm::dvec3& center, double radius, bool inwards = false) {
   LightRow<Value> row{};
   put(center, row.a_x, row.a_y, row.a_z);
@@ -139,6 +152,23 @@ struct SeenTriangle {
               volume + opening / 32 > 1. / 64;
   }
   double solid_angle() const { return 2 * std::atan2(volume, opening); }
+};
+
+/// A rectangle light from a place: two of those.
+struct SeenRectangle {
+  double solid_angle;
+  bool sampled;  ///< by solid angle, by the rule of kernels/lights/rectangle.h; else by area
+  SeenRectangle(const LightRow<Value>& row, const glm::dvec3& from) {
+    const glm::dvec3 b(row.b_x, row.b_y, row.b_z), c(row.c_x, row.c_y, row.c_z);
+    LightRow<Value> one = row, other = row;
+    put(b + c, one.c_x, one.c_y, one.c_z);
+    put(b + c, other.b_x, other.b_y, other.b_z);
+    solid_angle = SeenTriangle(one, from).solid_angle() + SeenTriangle(other, from).solid_angle();
+    const glm::dvec3 way = from - corner_of(row);
+    const double size = glm::length(c);
+    sampled = glm::dot(way, glm::normalize(glm::cross(b, c))) >= size / 64 &&
+              glm::length(way - b / 2. - c / 2.) <= 2 * size;
+  }
 };
 
 }  // namespace yat

@@ -44,7 +44,7 @@ TEST_F(CompileLights, PowerRule) {
             scale(12.080706596374512, 12.080706596374512, 12.080706596374512))
       .area_light = lamp;
   const Scene scene = compile();
-  ASSERT_EQ(scene.lights.size(), 2u);
+  ASSERT_EQ(scene.lights.size(), 1u);
   const auto l = scene.lights.row(0);
   // gain * power * efficacy / (pi * area); the classic renderer's own figure is rounded to 741.57.
   EXPECT_NEAR(y_of(scene, l), 2 * 1700 / (kPi * std::pow(12.080706596374512 * 2 * double(h), 2)),
@@ -56,14 +56,94 @@ TEST_F(CompileLights, PowerRule) {
   EXPECT_NEAR(bands.y / bands.x, hue.y / hue.x, 1e-6);
   EXPECT_NEAR(bands.z / bands.x, hue.z / hue.x, 1e-6);
   EXPECT_GT(std::fabs(hue.z / hue.x - double(.62339652f)), .01);
-  EXPECT_NEAR(l.extra, 12.0807 * 12.0807 * .1 * .1 / 2, 1e-4);
-  EXPECT_EQ(l.kind, uint32_t(LightKind::kTriangle));
+  EXPECT_NEAR(l.extra, 12.0807 * 12.0807 * .1 * .1, 1e-4);
+  EXPECT_EQ(l.kind, uint32_t(LightKind::kRectangle));
   // b x c is the outside: this lamp faces down.
   EXPECT_LT(l.b_x * l.c_y - l.b_y * l.c_x, 0);
-  EXPECT_EQ(scene.triangles.row(1).light, 1u);
-  EXPECT_EQ(scene.light_kinds, 1u << uint32_t(LightKind::kTriangle));
-  EXPECT_FLOAT_EQ(l.probability, .5f);
+  EXPECT_EQ(scene.triangles.row(0).light, 0u);
+  EXPECT_EQ(scene.triangles.row(1).light, 0u);
+  EXPECT_EQ(scene.light_kinds, 1u << uint32_t(LightKind::kRectangle));
+  EXPECT_FLOAT_EQ(l.probability, 1);
   EXPECT_SILENT();
+}
+
+// Two triangles that make a rectangle are one light, whichever corner they begin at; what is
+// skewed, bent, of other sides or of other meshes is not.
+TEST_F(CompileLights, PairsThatMakeARectangleAreOneLight) {
+  const uint32_t lamp = area_light(plain(1));
+  struct Case {
+    const char* name;
+    std::vector<float> p;
+    std::vector<int32_t> indices;
+    uint32_t lights;
+  };
+  const std::vector<float> wide = {0, 0, 0, 3, 0, 0, 3, 1, 0, 0, 1, 0};
+  const Case cases[] = {{"from the corner", wide, {0, 1, 2, 0, 2, 3}, 1},
+                        {"the other diagonal", wide, {3, 0, 1, 2, 3, 1}, 1},
+                        {"others first", wide, {0, 1, 2, 1, 2, 3, 2, 3, 0}, 2},
+                        {"facing to both sides", wide, {0, 1, 2, 0, 3, 2}, 2},
+                        {"skewed", {0, 0, 0, 3, 0, 0, 4, 1, 0, 1, 1, 0}, {0, 1, 2, 0, 2, 3}, 2},
+                        {"bent", {0, 0, 0, 3, 0, 0, 3, 1, 0, 0, 1, .01f}, {0, 1, 2, 0, 2, 3}, 2},
+                        {"kite", {0, 0, 0, 3, 0, 0, 3, 1, 0, .6f, 1.8f, 0}, {0, 1, 2, 0, 2, 3}, 2},
+                        {"one of three",
+                         {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 1, 0},
+                         {0, 1, 2, 0, 2, 3, 1, 4, 2},
+                         2}};
+  for (const Case& c : cases) {
+    description.shapes.clear();
+    shape(mesh(c.p, c.indices)).area_light = lamp;
+    const Scene scene = compile();
+    EXPECT_EQ(scene.lights.size(), c.lights) << c.name;
+    double area = 0, triangles = 0;
+    for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+      const LightRow<Value> l = scene.lights.row(i);
+      area += double(l.extra);
+      if (l.kind != uint32_t(LightKind::kRectangle)) continue;
+      const glm::dvec3 b(l.b_x, l.b_y, l.b_z), c2(l.c_x, l.c_y, l.c_z);
+      EXPECT_EQ(glm::dot(b, c2), 0);
+      EXPECT_LE(glm::length(b), glm::length(c2));
+      EXPECT_GT(glm::cross(b, c2).z, 0);
+    }
+    for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
+      EXPECT_LT(scene.triangles.row(t).light, c.lights) << c.name;
+      const LightRow<Value> l = triangle_light(scene.triangles.row(t), glm::dvec3(1));
+      triangles += double(l.extra);
+    }
+    EXPECT_NEAR(area, triangles, 1e-5) << c.name;
+  }
+}
+
+TEST_F(CompileLights, RectanglesCountAsTwoWhereLightsAreMany) {
+  const uint32_t lamp = area_light(plain(1));
+  shape(square()).area_light = lamp;
+  shape(triangle(), translate(0, 0, 2)).area_light = lamp;
+  EXPECT_EQ(compile().light_tree.nodes.size(), 0u);
+  shape(square(), translate(0, 0, 4)).area_light = lamp;
+  EXPECT_EQ(compile().light_tree.nodes.size(), 2u);
+}
+
+// In shared objects the rectangle must be one in every instance.
+TEST_F(CompileLights, RectanglesOfSharedObjectsAreThoseOfAllInstances) {
+  const auto lights_of = [&](const Matrix& second) {
+    description.objects = {{"o", {}}};
+    description.shapes.clear();
+    description.instances.clear();
+    ShapeEntry& lamp = shape(square());
+    lamp.object = 0;
+    lamp.area_light = area_light(plain(1));
+    shape(triangle());
+    description.instances.push_back({0, scale(2, 1, 1), kNone, {}});
+    description.instances.push_back({0, second, kNone, {}});
+    options.instances = InstanceMode::kShare;
+    const Scene scene = compile();
+    EXPECT_EQ(scene.instances.rows.size(), 2u);
+    return scene.lights.size();
+  };
+  EXPECT_EQ(lights_of(translate(0, 0, 3)), 2u);
+  EXPECT_EQ(lights_of(glm::rotate(Matrix(1.), .7, glm::dvec3(1, 2, 3)) * scale(-1, 5, 2)), 2u);
+  Matrix sheared(1.);
+  sheared[1][0] = .5;
+  EXPECT_EQ(lights_of(sheared), 4u);
 }
 
 TEST_F(CompileLights, WithoutPowerTheColourIsTheRadiance) {
@@ -96,13 +176,13 @@ TEST_F(CompileLights, InstancedLightShinesOncePerInstanceByItsOwnArea) {
   description.instances.push_back({0, translate(0, 0, 3), kNone, {}});
   options.light_choice = LightChoosing::kPower;
   const Scene scene = compile();
-  ASSERT_EQ(scene.lights.size(), 4u);
-  for (uint32_t i = 0; i < 4; ++i)
+  ASSERT_EQ(scene.lights.size(), 2u);
+  for (uint32_t i = 0; i < 2; ++i)
     EXPECT_NEAR(y_of(scene, scene.lights.row(i)), 1700 / (4 * kPi), 1e-3);
-  EXPECT_FLOAT_EQ(scene.lights.row(0).extra, 8);
+  EXPECT_FLOAT_EQ(scene.lights.row(0).extra, 16);
   // The larger copy has four times the power.
-  EXPECT_FLOAT_EQ(scene.lights.row(0).probability, .4f);
-  EXPECT_FLOAT_EQ(scene.lights.row(3).probability, .1f);
+  EXPECT_FLOAT_EQ(scene.lights.row(0).probability, .8f);
+  EXPECT_FLOAT_EQ(scene.lights.row(1).probability, .2f);
 }
 
 TEST_F(CompileLights, LightsThatCannotShine) {

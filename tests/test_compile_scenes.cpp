@@ -48,7 +48,7 @@ TEST_F(CompileScenes, CornellBox) {
   const Scene scene = bundled("cornell-box");
   EXPECT_EQ(messages, "");
   EXPECT_EQ(scene.triangles.size(), 2u * (1 + 5 + 5 + 5));
-  EXPECT_EQ(scene.lights.size(), 2u);
+  EXPECT_EQ(scene.lights.size(), 1u);
   EXPECT_EQ(scene.bins.size(), 3u) << "flat matte, dark and shining";
   EXPECT_EQ(scene.film.width, 512u);
   // The lamp shines down.
@@ -74,8 +74,8 @@ TEST_F(CompileScenes, TheOtherBundledScenesSayNothing) {
   EXPECT_EQ(scene.spheres.size(), 3u);
   EXPECT_EQ(scene.camera_kind, CameraKind::kThinLens);
   scene = bundled("furnace");
-  EXPECT_EQ(scene.lights.size(), 12u);
-  for (uint32_t i = 0; i < 12; ++i) {
+  EXPECT_EQ(scene.lights.size(), 6u);
+  for (uint32_t i = 0; i < 6; ++i) {
     // Inwards: b x c points at the origin.
     const auto l = scene.lights.row(i);
     const double n[3] = {double(l.b_y * l.c_z - l.b_z * l.c_y),
@@ -103,7 +103,8 @@ TEST_F(CompileScenes, RealCornellBox) {
   EXPECT_EQ(messages, "");
   EXPECT_EQ(scene.film.width, 960u);
   EXPECT_EQ(scene.film.tone_map, ToneMap::kReinhard);
-  EXPECT_EQ(scene.lights.size(), 2u);
+  EXPECT_EQ(scene.light_kinds, 1u << uint32_t(LightKind::kRectangle));
+  EXPECT_EQ(scene.lights.size(), 1u);
   EXPECT_FALSE(scene.all_occlude);
   EXPECT_EQ(scene.spheres.size() + scene.planes.size(), 0u);
 }

@@ -29,6 +29,10 @@ Expected expected_at(const LightRow<Value>& row, const glm::dvec3& p, const glm:
       if (const SeenTriangle seen(row, p); seen.sampled)
         return {1 / seen.solid_angle(), seen.solid_angle()};
       return cos > 0 ? Expected{d2 / (cos * r), cos * r / d2} : Expected{0, 0};
+    case LightKind::kRectangle:
+      if (const SeenRectangle seen(row, p); seen.sampled)
+        return {1 / seen.solid_angle, seen.solid_angle};
+      return cos > 0 ? Expected{d2 / (cos * r), cos * r / d2} : Expected{0, 0};
     case LightKind::kSphere: {
       const double far2 = glm::dot(a - p, a - p);
       if (row.b_x != 0 ? !(cos > 0) : far2 <= r * r) return {0, 0};
@@ -45,11 +49,23 @@ Expected expected_at(const LightRow<Value>& row, const glm::dvec3& p, const glm:
   }
 }
 
+bool is_flat(const LightRow<Value>& row) {
+  return row.kind == uint32_t(LightKind::kTriangle) || row.kind == uint32_t(LightKind::kRectangle);
+}
+
+LightRow<Value> random_rectangle(Random& random) {
+  const glm::dvec3 b = random.point(2), c = glm::cross(b, random.direction());
+  const double longer = 1 + double(random.unit());
+  return rectangle_light(random.point(5), b, longer * glm::length(b) / glm::length(c) * c);
+}
+
 TEST_P(Lights, EveryKindIsWhatDoublePrecisionSaysAtEveryCount) {
   const KernelTable& k = kernels();
   Random random(1);
   const auto make = [&](LightKind kind) {
     switch (kind) {
+      case LightKind::kRectangle:
+        return random_rectangle(random);
       case LightKind::kTriangle:
         return triangle_light(random.point(5), random.point(5), random.point(5));
       case LightKind::kSphere:
@@ -65,7 +81,8 @@ TEST_P(Lights, EveryKindIsWhatDoublePrecisionSaysAtEveryCount) {
     for (const uint32_t count : {1u, 5u}) {
       std::vector<LightRow<Value>> lights;
       for (uint32_t i = 0; i < count; ++i)
-        lights.push_back(make(LightKind(kind < 4 ? kind : (i + count) % 4)));
+        lights.push_back(
+            make(LightKind(kind < kPlainLights ? kind : (i + count) % kPlainLightKinds)));
       const LightScene scene(lights);
       for (const uint32_t n : tail_counts(k.lanes)) {
         Batch b(n);
@@ -73,7 +90,7 @@ TEST_P(Lights, EveryKindIsWhatDoublePrecisionSaysAtEveryCount) {
           b.set(i, rounded(random.point(5)), random.unit(), random.unit(), random.unit());
         b.run(k, scene.view, kind);
         EXPECT_TRUE(b.samples.untouched());
-        if (kind < 4) {  // the mixture kernel gives the same bits
+        if (kind < kPlainLights) {  // the mixture kernel gives the same bits
           Batch m(n);
           for (uint32_t i = 0; i < n; ++i) {
             m.surfaces.set(i, b.surfaces.row(i));
@@ -94,7 +111,7 @@ TEST_P(Lights, EveryKindIsWhatDoublePrecisionSaysAtEveryCount) {
           const LightSample<Value> s = b.samples.row(i);
           const glm::dvec3 p = b.pos(i), to = to_of(s), a(row.a_x, row.a_y, row.a_z);
           glm::dvec3 normal(0), point = to;
-          if (row.kind == uint32_t(LightKind::kTriangle)) {
+          if (is_flat(row)) {
             const glm::dvec3 e1(row.b_x, row.b_y, row.b_z), e2(row.c_x, row.c_y, row.c_z);
             normal = glm::normalize(glm::cross(e1, e2));
             const double above = glm::dot(to - a, normal);
@@ -224,6 +241,7 @@ TEST_P(Lights, IrradianceOfKnownShapes) {
       {"triangle", {triangle_light({1, 0, 2}, {-1, -1, 3}, {0, 1, 2})}, 0, .258953915},
       {"square above its centre", square_light(-.5, -.5), 0, .752274688},
       {"square above its corner", square_light(0, 0), 0, .435209876},
+      {"rectangle", {rectangle_light({0, 0, 1}, {0, 1, 0}, {1, 0, 0})}, 4, .435209876},
       {"sphere", {sphere_light({0, 0, 3}, 1)}, 1, .349065850},
       {"sphere and square",
        {square_light(0, 0)[0], square_light(0, 0)[1], sphere_light({0, 0, 3}, 1)},
@@ -259,6 +277,7 @@ TEST_P(Lights, EmissionWeighsAgainstTheSamplersDensity) {
   for (int i = 0; i < 4; ++i) {
     lights.push_back(triangle_light(random.point(5), random.point(5), random.point(5)));
     lights.push_back(sphere_light(random.point(5), double(random.in(.1f, 4)), i & 1));
+    lights.push_back(random_rectangle(random));
   }
   const LightScene scene(lights);
   for (const uint32_t n : tail_counts(k.lanes)) {
@@ -271,10 +290,10 @@ TEST_P(Lights, EmissionWeighsAgainstTheSamplersDensity) {
     GuardedTable<SampleSum> sums(n);
     for (uint32_t i = 0; i < n; ++i) {
       const LightSample<Value> s = b.samples.row(i);
-      const auto chosen = uint32_t(double(b.randoms.row(i).light_choice) * 8);
+      const auto chosen = uint32_t(double(b.randoms.row(i).light_choice) * 12);
       const LightRow<Value>& row = lights[chosen];
       const glm::dvec3 a(row.a_x, row.a_y, row.a_z), to = to_of(s);
-      const glm::dvec3 ng = row.kind == uint32_t(LightKind::kTriangle)
+      const glm::dvec3 ng = is_flat(row)
                                 ? glm::normalize(glm::cross(glm::dvec3(row.b_x, row.b_y, row.b_z),
                                                             glm::dvec3(row.c_x, row.c_y, row.c_z)))
                                 : glm::normalize(to - a) * (row.b_x != 0 ? -1. : 1.);

@@ -4,6 +4,7 @@
 #include "kernels/accumulate.h"
 #include "kernels/drop.h"
 #include "kernels/light_choice.h"
+#include "kernels/lights/rectangle.h"
 #include "kernels/lights/shape.h"
 #include "kernels/lights/sphere.h"
 #include "kernels/lights/triangle.h"
@@ -35,10 +36,15 @@ void add_emission(const SceneView& scene, const Surface<ConstColumn>& surfaces,
                       load<A>(surfaces.pos_z, i)};
     const Vec3<A> receiver = pos + distance * wo;
     const SeenLight<A> seen{distance, cos};
+    const Mask<A> rectangle =
+        shining & mask_of<A>(row.kind == UInt<A>(uint32_t(LightKind::kRectangle)));
     const Mask<A> sphere = mask_of<A>(row.kind == UInt<A>(uint32_t(LightKind::kSphere)));
     // Camera rays and those off mirrors keep all they see, whatever the density.
-    Float<A> sampled =
-        TriangleLight<A>::pdf(row, shining & (scattered != Float<A>(0.f)), receiver, seen);
+    const Mask<A> weighted = shining & (scattered != zero);
+    Float<A> sampled = TriangleLight<A>::pdf(row, weighted & ~rectangle, receiver, seen);
+    if (any<A>(rectangle))
+      sampled = select<A>(
+          rectangle, RectangleLight<A>::pdf(row, weighted & rectangle, receiver, seen), sampled);
     if (any<A>(sphere & shining))
       sampled = select<A>(sphere, SphereLight<A>::pdf(row, receiver, seen), sampled);
     const Mask<A> shape = shining & mask_of<A>(row.kind == UInt<A>(uint32_t(LightKind::kShape)));

@@ -12,6 +12,8 @@ void fill_light(KernelTable& table) {
   table.sample_lights[uint32_t(LightKind::kPoint)] = &sample_lights<A, uint32_t(LightKind::kPoint)>;
   table.sample_lights[uint32_t(LightKind::kDistant)] =
       &sample_lights<A, uint32_t(LightKind::kDistant)>;
+  table.sample_lights[uint32_t(LightKind::kRectangle)] =
+      &sample_lights<A, uint32_t(LightKind::kRectangle)>;
   table.sample_lights[kPlainLights] = &sample_lights<A, kPlainLights>;
 }
 

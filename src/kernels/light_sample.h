@@ -1,6 +1,8 @@
 #pragma once
 // One light and a point on it for every surface.
 
+#include <type_traits>
+
 #include "kernels/light_choice.h"
 #include "kernels/lights/constant.h"
 #include "kernels/lights/distant.h"
@@ -8,6 +10,7 @@
 #include "kernels/lights/point.h"
 #include "kernels/lights/point_map.h"
 #include "kernels/lights/projection.h"
+#include "kernels/lights/rectangle.h"
 #include "kernels/lights/shape.h"
 #include "kernels/lights/sky.h"
 #include "kernels/lights/sphere.h"
@@ -30,6 +33,8 @@ template <class A>
 struct LightOfKind<A, LightKind::kPoint> : PointLight<A> {};
 template <class A>
 struct LightOfKind<A, LightKind::kDistant> : DistantLight<A> {};
+template <class A>
+struct LightOfKind<A, LightKind::kRectangle> : RectangleLight<A> {};
 template <class A>
 struct LightOfKind<A, LightKind::kSpot> : SpotLight<A> {};
 template <class A>
@@ -104,6 +109,7 @@ YAT_INLINE void pick_plain_kinds(const LightQuery<A>& query, LightPick<A>& pick)
   pick_kind<A, LightKind::kSphere>(query, pick);
   pick_kind<A, LightKind::kPoint>(query, pick);
   pick_kind<A, LightKind::kDistant>(query, pick);
+  pick_kind<A, LightKind::kRectangle>(query, pick);
 }
 
 /// Rows of surfaces as the light tree sees them; all_around: lights of either side count alike.
@@ -129,7 +135,13 @@ YAT_INLINE void sample_chosen_lights(const SceneView& scene, const Surface<Const
   const bool own_number = randoms.light_choice != nullptr;
   const Float<A> zero(0.f), one(1.f);
   LightRowW<A> row;
-  if (one_light) row = broadcast<A>(lights.rows, 0);
+  constexpr bool kRectangles = kKernel == uint32_t(LightKind::kRectangle);
+  [[maybe_unused]] std::conditional_t<kRectangles, typename RectangleLight<A>::Placed, uint32_t>
+      placed;
+  if (one_light) {
+    row = broadcast<A>(lights.rows, 0);
+    if constexpr (kRectangles) placed = RectangleLight<A>::place(row);
+  }
   for (uint32_t i = 0; i < n; i += kLanes<A>) {
     const Mask<A> active = tail_mask<A>(i, n);
     const Vec3<A> receiver{load<A>(surfaces.pos_x, i), load<A>(surfaces.pos_y, i),
@@ -166,6 +178,9 @@ YAT_INLINE void sample_chosen_lights(const SceneView& scene, const Surface<Const
       pick.to = receiver;
       pick.measure = pick.pdf = zero;
       pick_plain_kinds<A>(query, pick);
+    } else if constexpr (kRectangles) {
+      if (!one_light) placed = RectangleLight<A>::place(row);
+      static_cast<LightPick<A>&>(pick) = RectangleLight<A>::sample(placed, receiver, u, v);
     } else {
       static_cast<LightPick<A>&>(pick) =
           LightOfKind<A, LightKind(kKernel)>::sample(row, receiver, far, u, v);

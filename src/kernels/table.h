@@ -129,7 +129,7 @@ enum class GeometryKind : uint32_t {
 };
 
 /// Light kinds that have a sampling kernel of their own: the first ones, which most scenes have.
-inline constexpr uint32_t kPlainLightKinds = 4;
+inline constexpr uint32_t kPlainLightKinds = 5;
 inline constexpr uint32_t kPlainLights = kPlainLightKinds, kAnyLights = kPlainLightKinds + 1;
 inline constexpr uint32_t kLightKernels = kAnyLights + 1;
 

@@ -52,6 +52,7 @@ target_sources(
           ${CMAKE_CURRENT_SOURCE_DIR}/parameters.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/parametric_mesh.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/read_analytic.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/rectangle_lights.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/read_meshes.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/stl.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/subdivide.cpp)

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "scene/compile_parts.h"
+#include "scene/rectangle_lights.h"
 
 namespace yat {
 
@@ -112,11 +114,22 @@ void GeometryRows::add_mesh(const PlacedShape& placed, const Mesh& mesh) {
   const size_t first_vertices = vertices_.size() - (added.flat ? 0 : triangles_.size() - first);
   degenerate_ += added.left_out;
   if (triangles_.size() == first) return;
+  std::vector<uint32_t> partner;  // in a rectangle that is one light, counted from `first`
+  if (placed.emissive() && !placed.look.varies())
+    partner = find_rectangles(std::span(triangles_).subspan(first));
   for (size_t t = first; t < triangles_.size(); ++t) {
     TriangleRow<Value>& row = triangles_[t];
     row.parameter = placed.material.row;
     if (!placed.emissive()) continue;
-    const LightRow<Value> light = triangle_light(row, placed.radiance);
+    const uint32_t other = partner.empty() ? kNone : partner[t - first];
+    if (other < t - first) {
+      row.light = triangles_[first + other].light;
+      continue;
+    }
+    const LightRow<Value> light =
+        other == kNone
+            ? triangle_light(row, placed.radiance)
+            : rectangle_light(*rectangle_of(row, triangles_[first + other]), placed.radiance);
     // An area that a float cannot hold has nothing to sample.
     if (!(light.extra > 0)) continue;
     row.light = uint32_t(lights_.size());

@@ -208,6 +208,7 @@ double light_power(const LightRow<Value>& light, const ColourModel& colour, doub
   const double cross_section = kPi * scene_radius * scene_radius, sphere = 4 * kPi;
   switch (LightKind(light.kind)) {
     case LightKind::kTriangle:
+    case LightKind::kRectangle:
     case LightKind::kShape:
       return kPi * extra * y;
     case LightKind::kSphere:

@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "scene/compile_objects.h"
+#include "scene/rectangle_lights.h"
 #include "scene/tree_parts.h"
 
 namespace yat {
@@ -95,17 +96,21 @@ void ObjectCompiler::build(const TreeOptions& options, ThreadPool& pool, Scene& 
                         vertices, diagnostics_);
       scene.degenerate_triangles += added.left_out;
       if (triangles.size() == first) continue;
+      std::vector<uint32_t> partner =
+          find_partners(uint32_t(o), mesh, std::span(triangles).subspan(first));
       uint32_t emissive = 0;
       for (size_t t = first; t < triangles.size(); ++t) {
         triangles[t].parameter = uint32_t(object.runs.size());
-        if (mesh.emissive()) triangles[t].light = emissive++;
+        const uint32_t other = partner.empty() ? kNone : partner[t - first];
+        if (mesh.emissive())
+          triangles[t].light = other < t - first ? triangles[first + other].light : emissive++;
         if (!added.flat) vertex_triangle.push_back(uint32_t(t));
       }
       object.emissive = object.emissive || mesh.emissive();
       object.runs.push_back(
           {first, uint32_t(triangles.size()),
            added.flat ? GeometryKind::kTriangleFlat : GeometryKind::kTriangleVertex, mesh.shining(),
-           m});
+           m, std::move(partner)});
     }
     out.objects[o].name = description_.objects[shapes.row].name;
     out.objects[o].first_triangle = object.first_triangle;
@@ -255,6 +260,50 @@ uint32_t ObjectCompiler::add_shapes(const SharedShapes::Instance& instance, cons
   return first;
 }
 
+std::vector<uint32_t> ObjectCompiler::find_partners(
+    uint32_t object, const PlacedShape& mesh, std::span<const TriangleRow<Value>> triangles) const {
+  if (!mesh.emissive() || mesh.look.varies()) return {};
+  return find_rectangles(triangles, [&](const RectangleSides& sides) {
+    return std::all_of(shapes_.instances.begin(), shapes_.instances.end(),
+                       [&](const SharedShapes::Instance& instance) {
+                         const glm::dmat3& map = instance.placement.linear;
+                         return instance.object != object ||
+                                is_rectangle(map * sides.b, map * sides.c);
+                       });
+  });
+}
+
+LightRow<Value> ObjectCompiler::placed_light(const TriangleRow<Value>& triangle,
+                                             const TriangleRow<Value>* partner, const Map& map,
+                                             const glm::dvec3& radiance) {
+  const bool mirrored = glm::determinant(map.to_scene) < 0;
+  const auto place = [&](RectangleSides s) {
+    s = {map.to_scene * s.corner + map.origin, map.to_scene * s.b, map.to_scene * s.c};
+    // The outside stays outside: see kernels/surface_instance.h.
+    if (mirrored) std::swap(s.b, s.c);
+    return s;
+  };
+  constexpr float kLeast = std::numeric_limits<float>::min();
+  if (partner) {
+    LightRow<Value> light = rectangle_light(place(*rectangle_of(triangle, *partner)), radiance);
+    light.extra = std::max(light.extra, kLeast);
+    return light;
+  }
+  const glm::dvec3 p0(triangle.p0_x, triangle.p0_y, triangle.p0_z);
+  const auto [a, b, c] = place({p0, glm::dvec3(triangle.p1_x, triangle.p1_y, triangle.p1_z) - p0,
+                                glm::dvec3(triangle.p2_x, triangle.p2_y, triangle.p2_z) - p0});
+  LightRow<Value> light{};
+  light.kind = uint32_t(LightKind::kTriangle);
+  light.a_x = float(a.x), light.a_y = float(a.y), light.a_z = float(a.z);
+  light.b_x = float(b.x), light.b_y = float(b.y), light.b_z = float(b.z);
+  light.c_x = float(c.x), light.c_y = float(c.y), light.c_z = float(c.z);
+  light.extra = std::max(float(.5 * glm::length(glm::cross(b, c))), kLeast);
+  light.radiance_r = float(radiance.x);
+  light.radiance_g = float(radiance.y);
+  light.radiance_b = float(radiance.z);
+  return light;
+}
+
 void ObjectCompiler::add_lights(const SharedShapes::Instance& instance,
                                 const InstanceRow<Value>& row, const Map& map,
                                 InstanceShapeRow<Value>* shapes, const Scene& scene,
@@ -270,24 +319,15 @@ void ObjectCompiler::add_lights(const SharedShapes::Instance& instance,
     const PlacedShape& mesh = shapes_.objects[instance.object].meshes[run.mesh];
     const glm::dvec3& radiance = mesh.radiance;
     for (uint32_t t = run.first; t < run.end; ++t) {
+      const uint32_t other = run.partner.empty() ? kNone : run.partner[t - run.first];
+      if (other < t - run.first) continue;
       const TriangleRow<Value> p = scene.instances.triangles.row(t);
+      TriangleRow<Value> partner{};
+      if (other != kNone) partner = scene.instances.triangles.row(run.first + other);
       const glm::dvec3 p0(p.p0_x, p.p0_y, p.p0_z);
       const glm::dvec3 e1 = glm::dvec3(p.p1_x, p.p1_y, p.p1_z) - p0;
       const glm::dvec3 e2 = glm::dvec3(p.p2_x, p.p2_y, p.p2_z) - p0;
-      const glm::dvec3 a = map.to_scene * p0 + map.origin;
-      glm::dvec3 b = map.to_scene * e1, c = map.to_scene * e2;
-      // The outside stays outside: see kernels/surface_instance.h.
-      if (mirrored) std::swap(b, c);
-      LightRow<Value> light{};
-      light.kind = uint32_t(LightKind::kTriangle);
-      light.a_x = float(a.x), light.a_y = float(a.y), light.a_z = float(a.z);
-      light.b_x = float(b.x), light.b_y = float(b.y), light.b_z = float(b.z);
-      light.c_x = float(c.x), light.c_y = float(c.y), light.c_z = float(c.z);
-      light.extra =
-          std::max(float(.5 * glm::length(glm::cross(b, c))), std::numeric_limits<float>::min());
-      light.radiance_r = float(radiance.x);
-      light.radiance_g = float(radiance.y);
-      light.radiance_b = float(radiance.z);
+      LightRow<Value> light = placed_light(p, other == kNone ? nullptr : &partner, map, radiance);
       // As far off as a ray that leaves this triangle starts (kernels/surface_instance.h).
       const glm::dvec3 normal = glm::normalize(glm::cross(e1, e2));
       const glm::dvec3 inner(row.inner_x, row.inner_y, row.inner_z);

@@ -128,6 +128,9 @@ class ObjectCompiler {
     GeometryKind geometry;
     Shining shining;
     uint32_t mesh;  ///< number among the object's meshes
+    /// Emissive ones, counted from `first`: with which each is one light (rectangle_lights.h), or
+    /// kNone. Empty where the emission varies.
+    std::vector<uint32_t> partner = {};
   };
   struct Object {
     std::vector<Run> runs;
@@ -151,6 +154,14 @@ class ObjectCompiler {
   /// The most that an instance's material wants of the mesh's texture coordinates.
   UvUse uv_use(uint32_t object, uint32_t mesh) const;
   BinKey key(const Run& run, const MaterialRef& material) const;
+  /// For each triangle of a mesh that shines the one with which it is one light in all instances.
+  std::vector<uint32_t> find_partners(uint32_t object, const PlacedShape& mesh,
+                                      std::span<const TriangleRow<Value>> triangles) const;
+  /// The light of a triangle and, unless it is null, its partner in an instance; the triangle's
+  /// normal in the scene is that of `map`.
+  static LightRow<Value> placed_light(const TriangleRow<Value>& triangle,
+                                      const TriangleRow<Value>* partner, const Map& map,
+                                      const glm::dvec3& radiance);
   /// Appends a row per shape; lights are not known yet. Returns the first.
   uint32_t add_shapes(const SharedShapes::Instance& instance, const BinKeys& keys,
                       std::vector<InstanceShapeRow<Value>>& shapes,

@@ -235,6 +235,7 @@ enum class LightKind : uint32_t {
   kSphere,
   kPoint,
   kDistant,
+  kRectangle,
   kSpot,
   kPointMap,
   kProjection,
@@ -246,15 +247,23 @@ enum class LightKind : uint32_t {
   kCount
 };
 inline constexpr uint32_t kFirstEnvironment = uint32_t(LightKind::kConstant);
-inline constexpr const char* kLightKindNames[] = {
-    "triangle",          "sphere", "point",
-    "distant",           "spot",   "mapped point",
-    "projection",        "shape",  "constant environment",
-    "image environment", "sun",    "sky"};
+inline constexpr const char* kLightKindNames[] = {"triangle",
+                                                  "sphere",
+                                                  "point",
+                                                  "distant",
+                                                  "rectangle",
+                                                  "spot",
+                                                  "mapped point",
+                                                  "projection",
+                                                  "shape",
+                                                  "constant environment",
+                                                  "image environment",
+                                                  "sun",
+                                                  "sky"};
 static_assert(sizeof(kLightKindNames) / sizeof(*kLightKindNames) == uint32_t(LightKind::kCount));
 
-/// One light: one emissive triangle, a sphere, a point, a direction, an environment. Fields by
-/// kind:
+/// One light: one emissive triangle, two that make a rectangle, a sphere, a point, a direction, an
+/// environment. Fields by kind:
 ///   triangle    a = p0, b = p1 - p0, c = p2 - p0 (b x c points where it shines),
 ///               extra = area [m2]; in an instance, further = what the rounding of its transform
 ///               adds to the distance that a ray keeps off it [m]
@@ -264,6 +273,8 @@ static_assert(sizeof(kLightKindNames) / sizeof(*kLightKindNames) == uint32_t(Lig
 ///               or b = (0, 1), no fall-off
 ///   distant     a = unit direction towards the light; radiance holds the irradiance on a surface
 ///               that faces it (theta 0), or radiance of a disc with cos(theta) in extra < 1
+///   rectangle   a = p0, b = p1 - p0, c = p3 - p0, |b| <= |c|, at right angles (b x c points where
+///               it shines), extra = area [m2], further as of triangles
 ///   spot        a = position, b = unit axis, extra = cosine of the cone,
 ///               c_x = 1 / (cosine where the falloff begins - extra), finite;
 ///               radiance holds the intensity on the axis

@@ -287,8 +287,10 @@ std::optional<LightBound> light_bound(const LightRow<Value>& light, double lumin
   const auto extra = double(light.extra);
   const auto point = [&](double intensity) { return LightBound{a, 0, {0, 0, 1}, true, intensity}; };
   switch (LightKind(light.kind)) {
-    case LightKind::kTriangle: {
-      const dvec3 center = a + (b + c) / 3.;
+    case LightKind::kTriangle:
+    case LightKind::kRectangle: {
+      const bool rectangle = LightKind(light.kind) == LightKind::kRectangle;
+      const dvec3 center = a + (b + c) / (rectangle ? 2. : 3.);
       const double radius = std::max(
           {glm::length(a - center), glm::length(a + b - center), glm::length(a + c - center)});
       const dvec3 normal = glm::normalize(glm::cross(b / radius, c / radius));

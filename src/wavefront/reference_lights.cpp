@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "scene/light_maps.h"
+#include "wavefront/reference_rectangle.h"
 #include "wavefront/reference_shapes.h"
 
 namespace yat::reference {
@@ -52,18 +53,11 @@ struct SphericalTriangle {
   }
 };
 
-/// A triangle light, uniform over its solid angle, or its area (Heitz 2019 for the map).
-void pick_triangle(const LightRow<Value>& row, const Vec& receiver, double u, double v,
-                   LightPoint& pick, double& inverse_pdf) {
+/// A point of a flat light that was sampled by area, or by the solid angle if that is not 0.
+void pick_flat(const LightRow<Value>& row, const Vec& receiver, const Vec& point,
+               double solid_angle, LightPoint& pick, double& inverse_pdf) {
   const Vec e1(row.b_x, row.b_y, row.b_z), e2(row.c_x, row.c_y, row.c_z);
   const Vec normal = glm::normalize(glm::cross(e1, e2));
-  const SphericalTriangle seen(row, receiver);
-  const double b1 = v > u ? u / 2 : u - v / 2, b2 = v > u ? v - u / 2 : v / 2;
-  Vec point = axis_a(row) + b1 * e1 + b2 * e2;
-  if (seen.sampled) {
-    const Vec w = seen.direction(u, v);
-    point = receiver + glm::dot(axis_a(row) - receiver, normal) / glm::dot(w, normal) * w;
-  }
   const Vec way = point - receiver;
   const double squared = glm::dot(way, way);
   pick.wi = glm::normalize(way);
@@ -75,9 +69,33 @@ void pick_triangle(const LightRow<Value>& row, const Vec& receiver, double u, do
       point + normal * (0x1p-22 * (glm::length(axis_a(row)) + glm::length(e1) + glm::length(e2)) +
                         double(row.further));
   if (cos > 0 && squared > 0) {
-    inverse_pdf = seen.sampled ? seen.solid_angle() : double(row.extra) * cos / squared;
+    inverse_pdf = solid_angle > 0 ? solid_angle : double(row.extra) * cos / squared;
     pick.pdf = 1 / inverse_pdf;
   }
+}
+
+/// A triangle light, uniform over its solid angle, or its area (Heitz 2019 for the map).
+void pick_triangle(const LightRow<Value>& row, const Vec& receiver, double u, double v,
+                   LightPoint& pick, double& inverse_pdf) {
+  const Vec e1(row.b_x, row.b_y, row.b_z), e2(row.c_x, row.c_y, row.c_z);
+  const SphericalTriangle seen(row, receiver);
+  const double b1 = v > u ? u / 2 : u - v / 2, b2 = v > u ? v - u / 2 : v / 2;
+  Vec point = axis_a(row) + b1 * e1 + b2 * e2;
+  if (seen.sampled) {
+    const Vec normal = glm::cross(e1, e2), w = seen.direction(u, v);
+    point = receiver + glm::dot(axis_a(row) - receiver, normal) / glm::dot(w, normal) * w;
+  }
+  pick_flat(row, receiver, point, seen.sampled ? seen.solid_angle() : 0, pick, inverse_pdf);
+}
+
+/// A rectangle light likewise.
+void pick_rectangle(const LightRow<Value>& row, const Vec& receiver, double u, double v,
+                    LightPoint& pick, double& inverse_pdf) {
+  const SphericalRectangle seen(row, receiver);
+  const Vec point = seen.sampled ? receiver + seen.point(u, v)
+                                 : axis_a(row) + u * Vec(row.b_x, row.b_y, row.b_z) +
+                                       v * Vec(row.c_x, row.c_y, row.c_z);
+  pick_flat(row, receiver, point, seen.sampled ? seen.solid_angle() : 0, pick, inverse_pdf);
 }
 
 /// A sphere light: uniform in its cone if it shines outwards, over its area if inwards.
@@ -245,6 +263,9 @@ LightPoint sample_light(const Scene& scene, const Receiver& lit, std::optional<f
     case LightKind::kTriangle:
       pick_triangle(row, receiver, u, v, pick, inverse_pdf);
       break;
+    case LightKind::kRectangle:
+      pick_rectangle(row, receiver, u, v, pick, inverse_pdf);
+      break;
     case LightKind::kSphere:
       pick_sphere(row, receiver, u, v, pick, inverse_pdf);
       break;
@@ -301,6 +322,10 @@ double light_pdf(const Scene& scene, const Vec& receiver, const Point& at, doubl
   double area = double(row.extra);
   if (LightKind(row.kind) == LightKind::kTriangle) {
     const SphericalTriangle seen(row, receiver);
+    if (seen.sampled) return probability / seen.solid_angle();
+  }
+  if (LightKind(row.kind) == LightKind::kRectangle) {
+    const SphericalRectangle seen(row, receiver);
     if (seen.sampled) return probability / seen.solid_angle();
   }
   if (LightKind(row.kind) == LightKind::kShape)

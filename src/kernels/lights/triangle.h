@@ -12,6 +12,7 @@
 //         size however small it is, and lies in the triangle whatever is rounded.
 
 #include "kernels/light.h"
+#include "kernels/lights/sine.h"
 #include "kernels/surface.h"
 
 namespace yat::YAT_ISA {
@@ -65,8 +66,9 @@ struct TriangleLight {
                                              const Float<A>& v) {
     const Float<A> zero(0.f), one(1.f), two(2.f), tiny(1e-30f);
     const Float<A> radius = xsimd::sqrt(two * seen.sum01 * seen.sum02 * seen.sum12);
-    const Float<A> rest = radius * sin_cos_turns<A>((one - u) * seen.turns).sin;
-    const Float<A> cut = seen.sum01 * sin_cos_turns<A>(u * seen.turns).sin;
+    const Float<A> whole = Float<A>(kTwoPi) * seen.turns;
+    const Float<A> rest = radius * sin_to_pi<A>((one - u) * whole);
+    const Float<A> cut = seen.sum01 * sin_to_pi<A>(u * whole);
     // q halves the angle between v0 and its mirror image about (rest + cut) v0 + cut v2.
     const Float<A> both = rest + cut,
                    inverse = one / xsimd::max(rest * rest + two * both * cut * seen.sum02, tiny);
