@@ -173,8 +173,10 @@ TEST(Accuracy, ChanceIsStudentsOfTheRunsThereAre) {
   outcome.known.runs = 16;
   EXPECT_NEAR(outcome.chance_of(2.042), .05, 5e-5);
   // Where roundings are all there is, the normal distribution.
-  outcome.measured.error = outcome.known.error = 0;
-  EXPECT_NEAR(outcome.chance_of(1.96), .05, 1e-4);
+  for (const double error : {0., 1e-13}) {
+    outcome.measured.error = outcome.known.error = error;
+    EXPECT_NEAR(outcome.chance_of(1.96), .05, 1e-4);
+  }
 }
 
 TEST(Accuracy, WhatLiesOutsideCountsAsItDoesWhenRepeated) {

@@ -110,6 +110,9 @@ struct Setting {
   int panels;
   Steps steps;
   Radiance radiance;
+  /// Over how many points along y of the spot that the camera sees the answer is a mean: where an
+  /// edge lies just at the end of what a point sees, its middle is not its mean.
+  int spots = 1;
 };
 
 Case sky_case(const Setting& s, const Point& at, double published) {
@@ -125,9 +128,13 @@ Case sky_case(const Setting& s, const Point& at, double published) {
   c.prepare = [s] { s.skies->make(s.type, s.to_north); };
   c.expected = [s, p, n = at.n](const Machine&) {
     const CieSky& sky = s.skies->sky(s.type, s.to_north);
-    return Known{100 * through_opening(p, n, s.opening, s.steps(p), s.panels,
-                                       [&](const Vec& d) { return s.radiance(sky, p, d); }),
-                 0};
+    double sum = 0;
+    for (int i = 0; i < s.spots; ++i) {
+      const Vec at = p + kSpotWidth * ((i + .5) / s.spots - .5) * kNorth;
+      sum += through_opening(at, n, s.opening, s.steps(at), s.panels,
+                             [&](const Vec& d) { return s.radiance(sky, at, d); });
+    }
+    return Known{100 * sum / s.spots};
   };
   return c;
 }
@@ -151,12 +158,17 @@ std::vector<Point> facade_points() {
   return points;
 }
 
+/// Glass before an opening. What it reflects back at grazing angles must not miss the opening's
+/// edge and leave the room, or light from beside comes in: with the report's 6 mm, 1 cm before an
+/// opening as large as the side, .1 to .6 % too much did at points nearby. So it is close and thin,
+/// and absorbs as much as its thickness.
 std::string pane_before(const Rectangle& side, double margin, const Vec& outward) {
+  constexpr double kGap = 1e-4, kThinner = 32;
   const ClearGlass glass;
   const Vec u = glm::normalize(side.u), v = glm::normalize(side.v);
-  return clear_pane(side.corner - margin * (u + v) + .01 * outward, side.u + 2 * margin * u,
-                    side.v + 2 * margin * v, ClearGlass::kIndex, glass.absorption(),
-                    ClearGlass::kThickness);
+  return clear_pane(side.corner - margin * (u + v) + kGap * outward, side.u + 2 * margin * u,
+                    side.v + 2 * margin * v, ClearGlass::kIndex, kThinner * glass.absorption(),
+                    ClearGlass::kThickness / kThinner);
 }
 
 Radiance open_air() {
@@ -295,6 +307,7 @@ void add_masks(std::vector<Case>& cases, const std::shared_ptr<Skies>& skies) {
   const auto add = [&](const char* name, const MaskRow& row, Setting s) {
     s.type = row.sky;
     s.name = fmt::format("{}.{}m.sky{}", name, row.mask, row.sky);
+    s.spots = 8;
     for (size_t i = 0; i < 8; ++i) {
       const char label = char('A' + i);
       Case c =

@@ -12,6 +12,7 @@ using Vec = glm::dvec3;
 /// pixels: the picture is what p shows along n, to 1e-6 of whatever changes over a unit length.
 /// Begins the world.
 std::string point_view(const Vec& p, const Vec& n);
+inline constexpr double kSpotWidth = 1.745e-4;  ///< of what it sees: 2 x .1 tan(.05 degrees)
 
 /// The same seen along `direction` (unit), from the surface to the camera.
 std::string slanted_view(const Vec& p, const Vec& direction);
