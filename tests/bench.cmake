@@ -7,11 +7,15 @@ if(YAT_BUILD_BENCH)
   target_compile_definitions(test_benches PRIVATE YAT_BENCH_DIR="${PROJECT_BINARY_DIR}/bin")
 endif()
 
-# The report is plain Python.
+# The report and the tables of many scenes are plain Python.
 find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(Python3_Interpreter_FOUND)
   add_test(NAME bench_report
            COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/test_bench_report.py
                    ${PROJECT_SOURCE_DIR}/tools ${CMAKE_CURRENT_BINARY_DIR}/output/bench_report)
-  set_tests_properties(bench_report PROPERTIES LABELS fast ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
+  add_test(NAME converge_scenes
+           COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/test_converge_scenes.py
+                   ${PROJECT_SOURCE_DIR}/tools ${CMAKE_CURRENT_BINARY_DIR}/output/converge_scenes)
+  set_tests_properties(bench_report converge_scenes PROPERTIES LABELS fast ENVIRONMENT
+                                                                PYTHONDONTWRITEBYTECODE=1)
 endif()
