@@ -11,3 +11,4 @@ yat_test(features LABELS render per_isa LIBS yat_wavefront SOURCES test_features
 yat_test(split LABELS render statistics per_isa LIBS yat_wavefront SOURCES test_split.cpp)
 yat_test(composites LABELS render statistics per_isa LIBS yat_wavefront glm::glm
          SOURCES test_composites.cpp)
+yat_test(zsobol LABELS render statistics LIBS yat_wavefront SOURCES test_zsobol.cpp test_zsobol_pictures.cpp)

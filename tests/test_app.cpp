@@ -128,6 +128,9 @@ TEST(Options, MistakesNameTheOptionAndTheWayOut) {
             "--noise-target 0: no picture is without error; give a relMSE above 0");
   EXPECT_EQ(usage_error({"render", "a.lxs", "--noise-target", "1e-2", "--spp", "1"}),
             "--noise-target needs 2 samples per pixel to see the error: give --spp 2 or more");
+  EXPECT_EQ(usage_error({"render", "a.lxs", "--noise-target", "1e-2", "--sampler", "zsobol"}),
+            "--noise-target tells the error from pixels that are independent of each other, which "
+            "those of --sampler zsobol are not: leave one of them out");
   EXPECT_EQ(usage_error({"render", "a.lxs", "-v", "-q"}), "-v and -q exclude each other");
   EXPECT_EQ(usage_error({"render", "a.lxs", "--light-sampling", "both"}),
             "--light-sampling both: unknown; choose from mis, lights, bsdf");

@@ -20,9 +20,12 @@ Side side_of(uint32_t depth, SamplerKind sampler = SamplerKind::kSobol, uint32_t
 
 /// All but `regular`: its samples are the middles of strata, whatever the seed; what lies beside
 /// them is never seen, which is what makes it regular.
-constexpr SamplerKind kSpread[] = {SamplerKind::kSobol, SamplerKind::kJittered,
-                                   SamplerKind::kNRooks, SamplerKind::kMultiJittered,
-                                   SamplerKind::kCorrelatedMultiJittered};
+constexpr SamplerKind kSpread[] = {SamplerKind::kSobol,
+                                   SamplerKind::kJittered,
+                                   SamplerKind::kNRooks,
+                                   SamplerKind::kMultiJittered,
+                                   SamplerKind::kCorrelatedMultiJittered,
+                                   SamplerKind::kZSobol};
 
 void prove_samplers(const std::string& text, uint32_t depth) {
   const KernelTable& kernels = select_kernels();

@@ -20,7 +20,8 @@ YAT_INSTANTIATE_PER_ISA(Determinism);
 
 TEST_P(Determinism, SameBitsForAnyThreadsBatchTileAndSplit) {
   const Scene scene = compile_text(everything_text(kWidth, kHeight), kernels());
-  for (const SamplerKind sampler : {SamplerKind::kSobol, SamplerKind::kIndependent}) {
+  for (const SamplerKind sampler :
+       {SamplerKind::kSobol, SamplerKind::kIndependent, SamplerKind::kZSobol}) {
     PlanOptions options;
     options.sampler = sampler;
     options.seed = 5;

@@ -161,13 +161,15 @@ void ConvergeRun::require_same_options() const {
 void ConvergeRun::warn_of_sobol() const {
   const std::vector<uint32_t> odd = not_powers_of_two(arguments_.ladder);
   if (odd.empty()) return;
-  for (const ConvergeVariant& variant : arguments_.variants)
-    if (!variant.to_noise() &&
-        renders_.plan(variant, odd.front(), 0).sampler == SamplerKind::kSobol)
+  for (const ConvergeVariant& variant : arguments_.variants) {
+    if (variant.to_noise()) continue;
+    const SamplerKind sampler = renders_.plan(variant, odd.front(), 0).sampler;
+    if (sampler == SamplerKind::kSobol || sampler == SamplerKind::kZSobol)
       console_.line(fmt::format(
-          "warning: {}: {} samples are no power of two, and between those the error of the sobol "
+          "warning: {}: {} samples are no power of two, and between those the error of the {} "
           "sampler is up to twice as large: give --ladder powers of two",
-          variant.name, fmt::join(odd, ", ")));
+          variant.name, fmt::join(odd, ", "), sampler_kind_name(sampler)));
+  }
 }
 
 bool ConvergeRun::included(const ConvergeVariant& variant, size_t rung) const {

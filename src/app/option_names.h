@@ -15,14 +15,15 @@ namespace yat {
 
 inline constexpr std::array<std::pair<std::string_view, Integrator>, 2> kIntegrators = {
     {{"path", Integrator::kPath}, {"direct", Integrator::kDirect}}};
-inline constexpr std::array<std::pair<std::string_view, SamplerKind>, 7> kSamplers = {
+inline constexpr std::array<std::pair<std::string_view, SamplerKind>, 8> kSamplers = {
     {{"sobol", SamplerKind::kSobol},
      {"independent", SamplerKind::kIndependent},
      {"regular", SamplerKind::kRegular},
      {"jittered", SamplerKind::kJittered},
      {"nrooks", SamplerKind::kNRooks},
      {"multijittered", SamplerKind::kMultiJittered},
-     {"cmj", SamplerKind::kCorrelatedMultiJittered}}};
+     {"cmj", SamplerKind::kCorrelatedMultiJittered},
+     {"zsobol", SamplerKind::kZSobol}}};
 inline constexpr std::array<std::pair<std::string_view, Dialect>, 2> kDialects = {
     {{"luxrender", Dialect::kLuxRender}, {"yart", Dialect::kYart}}};
 inline constexpr std::array<std::pair<std::string_view, TreeChoice>, 2> kTrees = {

@@ -58,10 +58,10 @@ constexpr OptionText kRenderOptions[] = {
     {"--max-depth", "N", "the scene's",
      "vertices after which a path ends; 0 sees light sources only"},
     {"--sampler", "NAME", "the scene's",
-     "where random numbers come from: sobol, independent, regular, jittered, nrooks, multijittered "
-     "or cmj"},
+     "where random numbers come from: sobol, independent, regular, jittered, nrooks, "
+     "multijittered, cmj or zsobol"},
     {"--sample-set", "N", "all samples of a pixel",
-     "samples that the samplers regular to cmj spread over a pixel together"},
+     "samples that the samplers regular to zsobol spread over a pixel together"},
     kCompat,
     {"--colour", "bands|rgb", "bands; with --compat yart rgb",
      "how colours multiply: bands: as LuxRender's spectra do; rgb: channel by channel"},

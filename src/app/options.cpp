@@ -180,6 +180,10 @@ void read_given(const Given& given, Arguments& to) {
   if (!given.max_depth.empty())
     to.max_depth = number<uint32_t>("--max-depth", given.max_depth, given.max_depth, 0, 65535);
   if (!given.sampler.empty()) to.sampler = by_name("--sampler", given.sampler, kSamplers);
+  if (to.sampler == SamplerKind::kZSobol && !given.noise_target.empty())
+    throw UsageError(
+        "--noise-target tells the error from pixels that are independent of each other, which "
+        "those of --sampler zsobol are not: leave one of them out");
   if (!given.sample_set.empty())
     to.sample_set =
         number<uint32_t>("--sample-set", given.sample_set, given.sample_set, 1, kLargestSet);

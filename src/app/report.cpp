@@ -184,8 +184,8 @@ std::vector<std::string> replay_commands(const RenderReport& report) {
         std::min(1., (y + .5) / height), drops.entry[i].sample, drops.entry[i].sample + 1,
         integrator_name(report.integrator), report.transport.max_depth,
         sampler_name(report.sampler),
-        is_stratified(report.sampler) ? fmt::format(" --sample-set {}", report.sample_set)
-                                      : std::string(),
+        has_sets(report.sampler) ? fmt::format(" --sample-set {}", report.sample_set)
+                                 : std::string(),
         unusual_options(report), dialect_name(report.dialect), colour_name(report.colour),
         report.transport.seed, report.isa));
   }

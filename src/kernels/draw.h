@@ -44,7 +44,9 @@ void draw(DrawKey sets, Dimension dimension, const uint32_t* pixel, const uint32
   const UInt<A> counted(dimension == Dimension::kChild ? 0xffffffffu : 0xffffu);
   for (uint32_t row = 0; row < n; row += kLanes<A>) {
     const UInt<A> vertex = depth ? load<A>(depth, row) & counted : UInt<A>(0u);
-    const UInt<A> key = random_key(sets.seed, uint32_t(dimension), load<A>(pixel, row), vertex);
+    // zsobol: pixels share a sequence.
+    const UInt<A> of_pixel = kSampler == SamplerKind::kZSobol ? UInt<A>(0u) : load<A>(pixel, row);
+    const UInt<A> key = random_key(sets.seed, uint32_t(dimension), of_pixel, vertex);
     if constexpr (is_stratified(kSampler)) {
       // Padding may hold anything, but a division wants a number below 2^30.
       const UInt<A> index = load<A>(sample, row) & UInt<A>(0x3fffffffu);
@@ -57,6 +59,9 @@ void draw(DrawKey sets, Dimension dimension, const uint32_t* pixel, const uint32
       WordPair<UInt<A>> words;
       if constexpr (kSampler == SamplerKind::kSobol)
         words = sobol_words(key, index, [](const UInt<A>& x) { return reverse_bits<A>(x); });
+      else if constexpr (kSampler == SamplerKind::kZSobol)
+        words = zsobol_words(key, load<A>(pixel, row), index, bits_of(sets.columns) - 1,
+                             [](const UInt<A>& x) { return reverse_bits<A>(x); });
       else
         words = independent_words(key, index);
       store<A>(unit_float<A>(words.first), first, row);

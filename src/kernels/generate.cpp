@@ -25,6 +25,7 @@ void fill_generate(KernelTable& table) {
   fill_draw<SamplerKind::kNRooks>(table);
   fill_draw<SamplerKind::kMultiJittered>(table);
   fill_draw<SamplerKind::kCorrelatedMultiJittered>(table);
+  fill_draw<SamplerKind::kZSobol>(table);
   fill_camera<CameraKind::kPinhole>(table);
   fill_camera<CameraKind::kThinLens>(table);
   fill_camera<CameraKind::kPolygonLens>(table);

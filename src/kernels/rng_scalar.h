@@ -30,7 +30,8 @@ inline std::pair<float, float> random_pair(SamplerKind sampler, DrawKey sets, Di
     for (int bit = 0; bit < 32; ++bit) r |= (x >> bit & 1u) << (31 - bit);
     return r;
   };
-  const uint32_t key = random_key(sets.seed, uint32_t(dimension), pixel, vertex);
+  const bool shared = sampler == SamplerKind::kZSobol;  // by all pixels
+  const uint32_t key = random_key(sets.seed, uint32_t(dimension), shared ? 0 : pixel, vertex);
   // 24 bits: all of them representable, so that no number rounds to 1.
   const auto units = [](const WordPair<uint32_t>& words) {
     return std::pair(float(words.first >> 8) * 0x1p-24f, float(words.second >> 8) * 0x1p-24f);
@@ -43,6 +44,8 @@ inline std::pair<float, float> random_pair(SamplerKind sampler, DrawKey sets, Di
   switch (sampler) {
     case SamplerKind::kSobol:
       return units(sobol_words(key, sample, reverse));
+    case SamplerKind::kZSobol:
+      return units(zsobol_words(key, pixel, sample, bits_of(sets.columns) - 1, reverse));
     case SamplerKind::kRegular:
       return strata(std::integral_constant<SamplerKind, SamplerKind::kRegular>{});
     case SamplerKind::kJittered:

@@ -10,12 +10,20 @@
 //                index is shuffled and the point is scrambled, both by hash-based Owen scrambling
 //                under a key of (seed, pixel, vertex, dimension). Over aligned power-of-two runs of
 //                samples every pair is a (0,2)-net, and different pairs are independent.
+//   zsobol       the same, but pixels share one sequence: they follow each other in Morton order,
+//                whose blocks of four are each put in a random order, 2^k samples a pixel. So the
+//                samples of every aligned block of 2^n x 2^n pixels are a (0,2)-net together, and
+//                errors of neighbours cancel. Blocks of more than 2^32 samples are independent.
 //
 // Source  Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020: padding, shuffling and
 //         scrambling by the hash of Laine and Karras 2011; constants of the hash by Vegdahl,
 //         "Building a Better LK Hash", 2021. The second Sobol dimension is the Pascal matrix
 //         modulo 2, applied as a butterfly over the five index bits (cf. Ahmed 2024).
 //         Departs: bit reversals that cancel between the steps are left out.
+//         zsobol: Ahmed, Wonka, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error
+//         via Hierarchical Ordering of Pixels", 2020. Departs: orders come from Owen scrambling,
+//         all levels at once, and from which half of a block's numbers goes first: a row of it
+//         (half of the time), a column or a diagonal (a quarter each).
 
 #include <cstdint>
 
@@ -76,14 +84,58 @@ YAT_INLINE WordPair<Word> independent_words(Word key, Word sample) {
   return {first, mix_word(first + Word(0x85ebca6bu))};
 }
 
-/// `reverse` is the bit reversal for Word.
+/// Sample of a sequence, given as the bit reversal of its index. `reverse` is that for Word.
 template <class Word, class Reverse>
-YAT_INLINE WordPair<Word> sobol_words(Word key, Word sample, Reverse reverse) {
-  const Word index = reverse(scramble_reversed(reverse(sample), key));
+YAT_INLINE WordPair<Word> sobol_words_reversed(Word key, Word reversed, Reverse reverse) {
+  const Word index = reverse(scramble_reversed(reversed, key));
   const Word key_x = mix_word(key ^ Word(0xa511e9b3u));
   const Word key_y = (key_x * Word(0x63d83595u)) ^ (key_x >> 15);
   return {reverse(scramble_reversed(index, key_x)),
           reverse(scramble_reversed(pascal_butterfly(index), key_y))};
+}
+template <class Word, class Reverse>
+YAT_INLINE WordPair<Word> sobol_words(Word key, Word sample, Reverse reverse) {
+  return sobol_words_reversed(key, reverse(sample), reverse);
+}
+
+/// Morton index of x + 2^16 y: bits of x at even, those of y at odd places.
+template <class Word>
+YAT_INLINE Word morton_index(Word pixel) {
+  Word m = pixel;
+  m = (m & Word(0xff0000ffu)) | ((m & Word(0x00ff0000u)) >> 8) | ((m & Word(0x0000ff00u)) << 8);
+  m = (m & Word(0xf00ff00fu)) | ((m & Word(0x0f000f00u)) >> 4) | ((m & Word(0x00f000f0u)) << 4);
+  m = (m & Word(0xc3c3c3c3u)) | ((m & Word(0x30303030u)) >> 2) | ((m & Word(0x0c0c0c0cu)) << 2);
+  return (m & Word(0x99999999u)) | ((m & Word(0x44444444u)) >> 1) | ((m & Word(0x22222222u)) << 1);
+}
+
+/// Of a Morton index with its bits reversed: in each block of four, what tells its halves apart is
+/// y, x or their sum, by bits that depend on the block alone.
+template <class Word>
+YAT_INLINE Word turn_blocks(Word reversed, Word key) {
+  const Word even(0x55555555u);
+  // Bit k of these depends on bits below k only: on the blocks around.
+  const Word turned = (scramble_reversed(reversed, key) ^ reversed) & even;
+  const Word slanted =
+      (scramble_reversed(reversed, mix_word(key + Word(0x6a09e667u))) ^ reversed) & turned;
+  const Word y = reversed & even, x = (reversed >> 1) & even, change = (x ^ y) & turned;
+  return (y ^ change ^ (y & slanted)) | ((x ^ change) << 1);
+}
+
+/// `key` without a pixel; pixel = x + 2^16 y; 2^bits samples of a pixel follow each other, bits <
+/// 31.
+template <class Word, class Reverse>
+YAT_INLINE WordPair<Word> zsobol_words(Word key, Word pixel, Word sample, int bits,
+                                       Reverse reverse) {
+  const Word morton = morton_index(pixel);
+  // Later sets of samples, and blocks that do not fit in 32 bits, have sequences of their own.
+  // Whole blocks: x and y of a level belong together.
+  const int above = (bits + 1) & ~1;
+  const Word set = (sample >> bits) * Word(0x9e3779b1u) + ((morton >> 1) >> (31 - above));
+  const Word set_key = mix_word(key + set);
+  const Word within = reverse(sample & Word((uint32_t(1) << bits) - 1));
+  const Word levels = reverse(morton) & Word(~uint32_t(0) << above);
+  const Word blocks = turn_blocks(levels, mix_word(set_key + Word(0x3c6ef372u)));
+  return sobol_words_reversed(set_key, (blocks >> bits) | within, reverse);
 }
 
 }  // namespace yat

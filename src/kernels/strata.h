@@ -22,7 +22,12 @@
 namespace yat {
 
 constexpr bool is_stratified(SamplerKind kind) {
-  return kind != SamplerKind::kIndependent && kind != SamplerKind::kSobol;
+  return kind != SamplerKind::kIndependent && kind != SamplerKind::kSobol &&
+         kind != SamplerKind::kZSobol;
+}
+/// Numbers depend on the size of the set.
+constexpr bool has_sets(SamplerKind kind) {
+  return is_stratified(kind) || kind == SamplerKind::kZSobol;
 }
 
 /// Bits of x: 0 for 0.

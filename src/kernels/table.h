@@ -63,6 +63,7 @@ enum class SamplerKind : uint32_t {
   kNRooks,
   kMultiJittered,
   kCorrelatedMultiJittered,
+  kZSobol,
   kCount
 };
 
@@ -70,7 +71,9 @@ enum class SamplerKind : uint32_t {
 /// sets.
 struct DrawKey {
   uint32_t seed;
-  uint32_t columns, rows;  ///< stratified samplers: columns x rows samples are spread together
+  /// Stratified samplers: columns x rows samples are spread together. zsobol: columns samples of a
+  /// pixel follow each other, a power of two.
+  uint32_t columns, rows;
   constexpr DrawKey(uint32_t s, uint32_t c = 8, uint32_t r = 8) : seed(s), columns(c), rows(r) {}
 };
 

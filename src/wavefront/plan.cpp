@@ -21,7 +21,7 @@ constexpr std::string_view kGeometryNames[] = {
 constexpr std::string_view kLightNames[] = {"triangle",  "sphere", "point", "distant",
                                             "rectangle", "mixed",  "any"};
 constexpr std::string_view kSamplerNames[] = {"independent", "sobol",         "regular", "jittered",
-                                              "nrooks",      "multijittered", "cmj"};
+                                              "nrooks",      "multijittered", "cmj",     "zsobol"};
 constexpr std::string_view kCameraNames[] = {"pinhole",      "thin lens",   "polygon lens",
                                              "orthographic", "environment", "fisheye"};
 static_assert(std::size(kCameraNames) == uint32_t(CameraKind::kCount));
@@ -216,8 +216,8 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
   const uint32_t set = std::clamp(options.sample_set, 1u, kLargestSet);
   plan.set_columns = uint32_t(std::sqrt(double(set)));
   plan.set_rows = set / plan.set_columns;
-  if (plan.sampler == SamplerKind::kNRooks) {
-    plan.set_columns = set;
+  if (plan.sampler == SamplerKind::kNRooks || plan.sampler == SamplerKind::kZSobol) {
+    plan.set_columns = plan.sampler == SamplerKind::kZSobol ? std::bit_ceil(set) : set;
     plan.set_rows = 1;
   }
   plan.triangles = scene.triangles.size() > 0;

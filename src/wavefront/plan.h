@@ -52,7 +52,7 @@ struct Plan {
   SamplerKind sampler = SamplerKind::kSobol;
   TransportOptions transport;
   LightSampling light_sampling = LightSampling::kBoth;
-  uint32_t set_columns = 8, set_rows = 8;  ///< of the stratified samplers
+  uint32_t set_columns = 8, set_rows = 8;  ///< of the samplers with sets: see DrawKey
   /// Key of all random numbers.
   DrawKey draw_key() const { return {transport.seed, set_columns, set_rows}; }
   std::vector<BinPlan> bins;        ///< parallel to Scene::bins; [0] is the ended bin
@@ -86,7 +86,7 @@ struct PlanOptions {
   /// First vertex at which Russian roulette may end a path, or kNoRoulette.
   uint32_t roulette_depth = TransportOptions{}.roulette_depth;
   /// Samples of a pixel that stratified samplers spread together, at most kLargestSet. Rounded down
-  /// to a grid's product where the sampler has a grid.
+  /// to a grid's product where the sampler has a grid, and up to a power of two for zsobol.
   uint32_t sample_set = 64;
 };
 
