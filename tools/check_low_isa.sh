@@ -31,6 +31,7 @@ left_out=(
   Lights.{IrradianceOfKnownShapes,SphereConeIsUniformInSolidAngleNearAndFar}
   Materials.{FurnaceIsNeverBrighterThanItsLight,SamplesFollowTheirDensity}
   Oracle.PicturesAgree
+  RectangleLights.{FarOnesAreUniformInArea,IrradianceIsLambertsFromEverywhere,NearOnesAreUniformInSolidAngle}
   Renders.{FurnaceAtEveryDepth,LanesAreBusyWhileShading,SphereFurnaceAtEveryDepth,TheBackOfALampShowsTheLastMaterial}
   ShapeLights.DensitiesIntegrateToTheArea
   ShapeRenders.ThousandsOfSpheresByTheTree
