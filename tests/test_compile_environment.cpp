@@ -26,10 +26,11 @@ TEST_F(CompileEnvironment, RowsOfEnvironmentsAreTheLast) {
   options.colour = ColourMode::kRgb;
   options.light_choice = LightChoosing::kPower;
   const Scene scene = compile();
-  ASSERT_EQ(scene.lights.size(), 4u);
-  EXPECT_EQ(scene.first_environment, 3u);
-  EXPECT_EQ(scene.lights.row(2).kind, uint32_t(LightKind::kPoint));
-  const LightRow<Value> row = scene.lights.row(3);
+  ASSERT_EQ(scene.lights.size(), 3u);
+  EXPECT_EQ(scene.first_environment, 2u);
+  EXPECT_EQ(scene.lights.row(0).kind, uint32_t(LightKind::kRectangle));
+  EXPECT_EQ(scene.lights.row(1).kind, uint32_t(LightKind::kPoint));
+  const LightRow<Value> row = scene.lights.row(2);
   EXPECT_EQ(row.kind, uint32_t(LightKind::kConstant));
   EXPECT_EQ(row.radiance_r, 1.5f);
   EXPECT_EQ(row.radiance_b, 6);

@@ -61,9 +61,10 @@ TEST_P(InstanceRenders, SceneIsAsDescribed) {
   EXPECT_EQ(scene.triangles.size(), 12u + 2u);
   EXPECT_EQ(scene.spheres.size(), 3u);
   EXPECT_FALSE(scene.instances.all_occlude);
-  // A light per emissive triangle and instance; the panels, one of them copied, are rectangles.
+  // A light per emissive triangle and instance; rectangles are one: the five faces around the
+  // middle of each lamp, and the panels, one of them copied.
   const uint32_t lamp = scene.instances.objects[0].triangles;
-  EXPECT_EQ(scene.lights.size(), 2 * lamp + 2 + 1);
+  EXPECT_EQ(scene.lights.size(), 2 * (lamp - 5) + 2 + 1);
 }
 
 TEST_P(InstanceRenders, PathsAgreeWithTheOracle) {
