@@ -109,6 +109,14 @@ TEST(Statistics, StudentsDistributionAgainstTables) {
   EXPECT_NEAR(student_two_sided(3, 2), 1 - 3 / std::sqrt(11.), 1e-13);
   // Many degrees of freedom: the normal distribution.
   EXPECT_NEAR(student_two_sided(1.959964, 1e7), .05, 1e-6);
+  for (const double df : {1e9, 1e12, 1e15, 1e20, 1e30, 1e300})
+    for (const double t : {1e-3, 1., 3., 20.})
+      EXPECT_NEAR(student_two_sided(t, df) / std::erfc(t / M_SQRT2), 1, 1e-4) << t << " " << df;
+  // Finite sums for even ones (26.7.4), by arithmetic of 120 digits, and no step between formulas.
+  EXPECT_NEAR(student_two_sided(3, 1000) / 0.00276670904423819, 1, 1e-12);
+  EXPECT_NEAR(student_two_sided(8, 100000) / 1.25739198762564e-15, 1, 1e-11);
+  for (const double t : {1., 5., 25.})
+    EXPECT_NEAR(student_two_sided(t, 1e7) / student_two_sided(t, 1e7 + 1), 1, 1e-9) << t;
   EXPECT_EQ(student_two_sided(0, 7), 1);
   EXPECT_EQ(student_two_sided(-2, 7), student_two_sided(2, 7));
 }

@@ -36,6 +36,9 @@ TEST(Significance, ValuesOfTables) {
 TEST(Significance, WelchOfAnExample) {
   // t = -2.763709471 with 11.36766822 degrees of freedom; the density integrated by Simpson's rule.
   EXPECT_NEAR(welch_test({20.82, 3.72, 8}, {22.98, 1.75, 12}), .0179354811522, 1e-12);
+  // A floor that is known, not measured, has no end of degrees of freedom.
+  for (const double floor : {1e3, 1e6, 1e9})
+    EXPECT_NEAR(welch_test({2 * floor, 3.72, 8}, {0, 1.75, 12}, floor), .0455, 1e-4) << floor;
   // Values without noise are the same to rounding, or not.
   const Moments one{1, 0, 8}, near{1 + 1e-7, 0, 8}, far{1.01, 0, 8};
   EXPECT_GT(welch_test(one, near, 1e-6), .9);

@@ -30,9 +30,8 @@ double Outcome::chance_of(double deviation) const {
       measured.error * measured.error + known.error * known.error + rounding * rounding;
   const double parts = part(measured.error, measured.runs) + part(known.error, known.runs);
   deviation = std::fabs(deviation);
-  constexpr double kNormal = 1e6;  // Degrees of freedom from which nobody sees a difference.
-  return kNormal * parts > all * all ? student_two_sided(deviation, all * all / parts)
-                                     : std::erfc(deviation / std::sqrt(2.));
+  return parts > 0 ? student_two_sided(deviation, all * all / parts)
+                   : std::erfc(deviation / std::sqrt(2.));
 }
 bool Outcome::within(const Limits& limits) const {
   // A NaN is not within.
