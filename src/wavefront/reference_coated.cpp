@@ -55,15 +55,21 @@ struct Coat {
   Vec absorption(double way) const { return absorbed(ka, depth, way); }
 };
 
-template <class Record>
-double chance(const Record& p, const LocalView& view) {
-  if (!view.outside) return 0;
-  const Coat coat(p);
-  const Vec fresnel = schlick(coat.r0, view.wo.z);
-  return chance_of_coat(fresnel, coat.absorption(1 + 1 / view.wo.z) * (1. - fresnel) * coat.kd +
-                                     double(p.multibounce) * fresnel);
+/// What is taken for the albedo of a lobe.
+double albedo(double u, double v) {
+  return 1 / (1 + 3 * u * v);
 }
-double chance(const GlossyLossyParameters<Value>& p, const LocalView& view) {
+
+template <class Record>
+double chance(const Record& p, const LocalView& view, float least) {
+  if (!view.outside) return 0;
+  const Coat coat(p, least);
+  const Vec fresnel = schlick(coat.r0, view.wo.z);
+  return chance_of_coat(albedo(coat.u, coat.v) * fresnel,
+                        coat.absorption(1 + 1 / view.wo.z) * (1. - fresnel) * coat.kd +
+                            double(p.multibounce) * fresnel);
+}
+double chance(const GlossyLossyParameters<Value>& p, const LocalView& view, float) {
   const Coat coat(p);
   const double cos = view.wo.z;
   return chance_of_coat(schlick(coat.r0, cos), coat.absorption(1 + 1 / cos) * (1. - coat.r0) *
@@ -75,7 +81,7 @@ template <class Record>
 double pdf_of(const Record& p, const LocalView& view, const Vec& wi, float least) {
   if (wi.z <= 0 || view.wo.z <= 0) return 0;
   const Coat coat(p, least);
-  const double c = chance(p, view);
+  const double c = chance(p, view, least);
   return c * lobe_pdf(coat.u, coat.v, view.wo, wi) + (1 - c) * wi.z / kPi;
 }
 template <class Record>
@@ -83,8 +89,8 @@ Bounce sample_of(const Record& p, const LocalView& view, double lobe, double u, 
                  float least) {
   const Coat coat(p, least);
   return weighted(p, view,
-                  lobe < chance(p, view) ? lobe_direction(coat.u, coat.v, view.wo, u, v)
-                                         : cosine_hemisphere(u, v));
+                  lobe < chance(p, view, least) ? lobe_direction(coat.u, coat.v, view.wo, u, v)
+                                                : cosine_hemisphere(u, v));
 }
 
 }  // namespace
@@ -174,8 +180,9 @@ struct Sheet {
     if (!view.outside) std::swap(here, there);
     const Vec fresnel = schlick(here.r0, view.wo.z);
     const Vec enters = absorbed(here.ka, here.depth, 1 + 1 / view.wo.z) * (1. - fresnel);
-    const double lobe = largest(fresnel), goes = largest(enters * kt);
-    const double rest = goes + largest(enters * kd) + here.multibounce * lobe;
+    const double reflected = largest(fresnel), lobe = albedo(here.u, here.v) * reflected;
+    const double goes = largest(enters * kt);
+    const double rest = goes + largest(enters * kd) + here.multibounce * reflected;
     coat = lobe + rest > 0 ? lobe / (lobe + rest) : 0;
     if (rest > 0) coat = std::fmin(coat, .875);
     through = rest > 0 ? (1 - coat) * goes / rest : 0;
@@ -235,7 +242,7 @@ struct Paint {
     for (int k = 0; k < 3; ++k) {
       if (!view.outside || m[k] <= 0) ks[k] = Vec(0.0);
       m[k] = std::fmax(m[k], double(kMirrorRoughness));
-      total += chance[k] = largest(ks[k]) * schlick(Vec(r[k]), view.wo.z).x;
+      total += chance[k] = albedo(m[k], m[k]) * largest(ks[k]) * schlick(Vec(r[k]), view.wo.z).x;
     }
     for (double& c : chance) c = total > 0 ? c / total : 0;
   }

@@ -58,7 +58,8 @@ struct CarPaint : EvaluateByParts<A, CarPaint<A>, CarPaintParameters<Lanes<A>::t
         const Float<A> rough = xsimd::max(m[k], least);
         s.lobe[k] = MicrofacetLobe<A>::of(rough, rough);
         s.ks[k] = only<A>(view.outside & (m[k] > zero), s.ks[k]);
-        s.chance[k] = largest(s.ks[k]) * fresnel_schlick<A>(s.r[k], cos);
+        s.chance[k] =
+            lobe_albedo<A>(s.lobe[k]) * (largest(s.ks[k]) * fresnel_schlick<A>(s.r[k], cos));
         total = total + s.chance[k];
       }
       for (int k = 0; k < kLobes; ++k)

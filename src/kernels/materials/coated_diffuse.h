@@ -31,6 +31,14 @@ YAT_INLINE Float<A> between_facets(const MicrofacetLobe<A>& lobe, const Vec3<A>&
   return xsimd::select(shadowed >= cosines, one, xsimd::max(shadowed, Float<A>(0.f)) / cosines);
 }
 
+/// About what a lobe of white facets gives back, by its roughness alone: 1/(1 + 3 u v), within .08
+/// for equal roughnesses at cosines from .1 on. Smooth ones give more at grazing angles.
+template <class A>
+YAT_INLINE Float<A> lobe_albedo(const MicrofacetLobe<A>& lobe) {
+  const Float<A> one(1.f);
+  return one / (one + Float<A>(3.f) * lobe.x * lobe.y);
+}
+
 /// The share of samples that the coat gets: what it brings, of all, but an eighth is left to a base
 /// that brings anything, as these are estimates. Where nothing brings anything: 0.
 template <class A>
@@ -65,6 +73,7 @@ struct EvaluateByParts {
 /// derives from it, says with P as of GlossyParameters:
 ///   kLeastRoughness     less is brought up to it
 ///   kCoatInside         whether the coat is there for those who look from the inside
+///   kShadowed           whether its facets shadow each other
 ///   base_share(p, parts, wo, fresnel, covered)   what the base may bring; covered: absorption
 ///   value(p, view, parts, wi, h)                 f, both directions above the surface
 template <class A, class Material, class P>
@@ -82,9 +91,11 @@ struct CoatedDiffuse : EvaluateByParts<A, Material, P> {
           {p.ka_r, p.ka_g, p.ka_b},
           zero};
       const Spectrum<A> fresnel = coat_fresnel<A>(s.r0, cos);
+      Spectrum<A> coat = fresnel;
+      if constexpr (Material::kShadowed) coat = lobe_albedo<A>(s.lobe) * coat;
       s.chance = coat_chance<A>(
-          fresnel, Material::base_share(p, s, view.wo, fresnel,
-                                        coat_absorption<A>(s.ka, p.depth, one + one / cos)));
+          coat, Material::base_share(p, s, view.wo, fresnel,
+                                     coat_absorption<A>(s.ka, p.depth, one + one / cos)));
       if constexpr (!Material::kCoatInside) s.chance = only<A>(view.outside, s.chance);
       return s;
     }

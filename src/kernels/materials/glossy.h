@@ -47,6 +47,7 @@ struct Glossy : CoatedDiffuse<A, Glossy<A>, GlossyParameters<Lanes<A>::template 
   using Parts = typename CoatedDiffuse<A, Glossy, Parameters>::Parts;
   static constexpr float kLeastRoughness = 0;
   static constexpr bool kCoatInside = false;
+  static constexpr bool kShadowed = true;
 
   static YAT_INLINE Spectrum<A> base_share(const Parameters& p, const Parts& parts, const Vec3<A>&,
                                            const Spectrum<A>& fresnel, const Spectrum<A>& covered) {

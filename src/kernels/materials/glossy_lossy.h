@@ -47,6 +47,7 @@ struct GlossyLossy
   using Parts = typename CoatedDiffuse<A, GlossyLossy, Parameters>::Parts;
   static constexpr float kLeastRoughness = 0;
   static constexpr bool kCoatInside = true;
+  static constexpr bool kShadowed = false;
 
   /// Reflectance of the base but for what depends on wi: 28/23 Kd (1 - R0) (1 - (1 - cos_o/2)^5).
   static YAT_INLINE Spectrum<A> base(const Parts& parts, const Vec3<A>& wo) {

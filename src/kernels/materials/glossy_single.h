@@ -47,6 +47,7 @@ struct GlossySingle
   using Parts = typename CoatedDiffuse<A, GlossySingle, Parameters>::Parts;
   static constexpr float kLeastRoughness = .006f;
   static constexpr bool kCoatInside = false;
+  static constexpr bool kShadowed = true;
 
   static YAT_INLINE Spectrum<A> base_share(const Parameters& p, const Parts& parts, const Vec3<A>&,
                                            const Spectrum<A>& fresnel, const Spectrum<A>& covered) {

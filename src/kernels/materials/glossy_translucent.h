@@ -89,8 +89,9 @@ struct GlossyTranslucent
       const Spectrum<A> fresnel = coat_fresnel<A>(s.here.r0, cos);
       const Spectrum<A> enters =
           coat_absorption<A>(s.here.ka, s.here.depth, one + one / cos) * one_minus<A>(fresnel);
-      const Float<A> coat = largest(fresnel), through = largest(enters * s.kt);
-      const Float<A> total = coat + through + largest(enters * s.kd) + s.multibounce * coat;
+      const Float<A> reflected = largest(fresnel), coat = lobe_albedo<A>(s.lobe) * reflected;
+      const Float<A> through = largest(enters * s.kt);
+      const Float<A> total = coat + through + largest(enters * s.kd) + s.multibounce * reflected;
       // Estimates: the lobe leaves an eighth to the others, if they bring anything.
       const Float<A> share = xsimd::select(total > zero, coat / total, zero);
       s.coat = xsimd::select(total > coat, xsimd::min(share, Float<A>(.875f)), share);
