@@ -54,8 +54,10 @@ std::vector<Case> near_cases() {
 
 TEST_P(RectangleLights, NearOnesAreUniformInSolidAngle) {
   uint32_t seed = 400;
+  int count = 0;
   for (const Case& c : near_cases())
     for (const double size : {1., 1e-3, 1e6}) {
+      if (size != 1 && ++count > 6) continue;
       const LightRow<Value> row = rectangle_light(size * c.corner, size * c.b, size * c.c);
       const SeenRectangle seen(row, {0, 0, 0});
       ASSERT_TRUE(seen.sampled) << c.name;
@@ -73,7 +75,7 @@ TEST_P(RectangleLights, NearOnesAreUniformInSolidAngle) {
         expect_close(double(s.weight_r), seen.solid_angle, 1e-5, c.name, i);
         expect_close(double(s.pdf), 1 / seen.solid_angle, 1e-5, c.name, i);
       }
-      EXPECT_GE(histogram.p_value(), sidak_level(3 * 30)) << c.name << ", size " << size;
+      EXPECT_GE(histogram.p_value(), sidak_level(3 * 16)) << c.name << ", size " << size;
       EXPECT_LE(outside, 2e-5 / (c.name[0] == 't' ? .02 : 1)) << c.name << ", size " << size;
     }
 }
@@ -132,8 +134,8 @@ TEST_P(RectangleLights, IrradianceIsLambertsFromEverywhere) {
   const Vec from(0, 0, 0);
   uint32_t seed = 700;
   int tried = 0;
-  for (const double height : {.004, .0155, .0157, .06, .3, 1., 1.9, 2.1, 4.})
-    for (const double aside : {0., .3, .49, .51, 1.4})
+  for (const double height : {.004, .0157, .06, 1., 1.9, 2.1})
+    for (const double aside : {0., .49, .51, 1.4})
       for (const double width : {1., .1}) {
         const LightRow<Value> row =
             rectangle_light({aside - .5, aside / 3 - width / 2, height}, {0, width, 0}, {1, 0, 0});
@@ -155,7 +157,7 @@ TEST_P(RectangleLights, IrradianceIsLambertsFromEverywhere) {
             << "height " << height << ", " << aside << " aside, width " << width;
         EXPECT_LE(error, 3e-3 * wanted) << "height " << height << ", " << aside << " aside";
       }
-  EXPECT_GE(tried, 60);
+  EXPECT_EQ(tried, 40);
 }
 
 // In its plane, on it, at its corners, an ulp above it, very near and very far: finite, and one
