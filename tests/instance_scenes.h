@@ -65,13 +65,14 @@ inline std::string instance_text(const std::string& name, const std::string& pla
 
 /// Compiles with shared objects or with copies; warnings fail the test.
 inline Scene compile_instances(const std::string& text, const KernelTable& kernels,
-                               InstanceMode mode) {
+                               InstanceMode mode, LightChoosing choosing = LightChoosing::kAuto) {
   Diagnostics diagnostics([](Severity severity, std::string_view line) {
     if (severity != Severity::kNote) ADD_FAILURE() << line;
   });
   CompileOptions options;
   options.block_width = kernels.lanes;
   options.instances = mode;
+  options.light_choice = choosing;
   ThreadPool pool(1);
   return compile_scene(parse_scene(text, "test.lxs", ".", diagnostics), options, pool, diagnostics);
 }

@@ -55,8 +55,7 @@ TEST_F(CompileEmission, ProgramsAreSharedByTheirShape) {
   EXPECT_SILENT();
   ASSERT_EQ(scene.emission_programs.size(), 1u);
   EXPECT_EQ(scene.emission_programs[0].rows, 2u);
-  // A row per triangle that varies; the square that shines evenly is one light.
-  ASSERT_EQ(scene.emission.size(), 5u);
+  ASSERT_EQ(scene.emission.size(), 6u);
   EXPECT_EQ(scene.emission.row(2).parameter, 1u);
   EXPECT_EQ(scene.emission.row(4).program, kNone);
   // By power: as bright in the mean, whatever L.

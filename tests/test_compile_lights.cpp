@@ -113,13 +113,18 @@ TEST_F(CompileLights, PairsThatMakeARectangleAreOneLight) {
   }
 }
 
-TEST_F(CompileLights, RectanglesCountAsTwoWhereLightsAreMany) {
+// The tree does better with the halves of a rectangle.
+TEST_F(CompileLights, ManyLightsStayTriangles) {
   const uint32_t lamp = area_light(plain(1));
   shape(square()).area_light = lamp;
   shape(triangle(), translate(0, 0, 2)).area_light = lamp;
-  EXPECT_EQ(compile().light_tree.nodes.size(), 0u);
-  shape(square(), translate(0, 0, 4)).area_light = lamp;
-  EXPECT_EQ(compile().light_tree.nodes.size(), 2u);
+  EXPECT_EQ(compile().lights.size(), 2u);
+  light(plugin("point", {}));
+  Scene scene = compile();
+  EXPECT_EQ(scene.lights.size(), 4u);
+  EXPECT_EQ(scene.light_tree.nodes.size(), 3u);
+  options.light_choice = LightChoosing::kPower;
+  EXPECT_EQ(compile().lights.size(), 3u);
 }
 
 // In shared objects the rectangle must be one in every instance.
@@ -135,6 +140,7 @@ TEST_F(CompileLights, RectanglesOfSharedObjectsAreThoseOfAllInstances) {
     description.instances.push_back({0, scale(2, 1, 1), kNone, {}});
     description.instances.push_back({0, second, kNone, {}});
     options.instances = InstanceMode::kShare;
+    options.light_choice = LightChoosing::kPower;
     const Scene scene = compile();
     EXPECT_EQ(scene.instances.rows.size(), 2u);
     return scene.lights.size();

@@ -74,8 +74,8 @@ TEST_F(CompileScenes, TheOtherBundledScenesSayNothing) {
   EXPECT_EQ(scene.spheres.size(), 3u);
   EXPECT_EQ(scene.camera_kind, CameraKind::kThinLens);
   scene = bundled("furnace");
-  EXPECT_EQ(scene.lights.size(), 6u);
-  for (uint32_t i = 0; i < 6; ++i) {
+  EXPECT_EQ(scene.lights.size(), 12u);
+  for (uint32_t i = 0; i < 12; ++i) {
     // Inwards: b x c points at the origin.
     const auto l = scene.lights.row(i);
     const double n[3] = {double(l.b_y * l.c_z - l.b_z * l.c_y),

@@ -61,35 +61,43 @@ TEST_P(InstanceRenders, SceneIsAsDescribed) {
   EXPECT_EQ(scene.triangles.size(), 12u + 2u);
   EXPECT_EQ(scene.spheres.size(), 3u);
   EXPECT_FALSE(scene.instances.all_occlude);
-  // A light per emissive triangle and instance; rectangles are one: the five faces around the
-  // middle of each lamp, and the panels, one of them copied.
+  // A light per emissive triangle and instance, and the copied panel's two.
   const uint32_t lamp = scene.instances.objects[0].triangles;
-  EXPECT_EQ(scene.lights.size(), 2 * (lamp - 5) + 2 + 1);
+  EXPECT_EQ(scene.lights.size(), 2 * lamp + 2 * 2 + 2);
+  // By power, rectangles are one: the five faces around the middle of each lamp, and the panels.
+  EXPECT_EQ(
+      compile_instances(room_of_instances(), kernels(), InstanceMode::kShare, LightChoosing::kPower)
+          .lights.size(),
+      2 * (lamp - 5) + 2 + 1);
 }
 
 TEST_P(InstanceRenders, PathsAgreeWithTheOracle) {
-  const Scene scene = compile_instances(room_of_instances(), kernels(), InstanceMode::kShare);
-  const Plan plan = plan_of(scene, 6);
-  EXPECT_TRUE(plan.instances);
-  uint64_t same = 0, all = 0;
-  double difference = 0, total = 0;
-  for (uint32_t sample = 0; sample < 3; ++sample) {
-    const std::vector<float> rgb = render_film(scene, plan, sample, sample + 1).resolve();
-    for (uint32_t y = 0; y < 24; ++y)
-      for (uint32_t x = 0; x < 32; ++x) {
-        const glm::dvec3 expected = reference_sample(scene, plan, x, y, sample);
-        const float* p = &rgb[3 * (size_t(y) * 32 + x)];
-        const glm::dvec3 found(p[0], p[1], p[2]);
-        same += glm::length(found - expected) <= 1e-3 * glm::length(expected);
-        ++all;
-        difference += found.x + found.y + found.z - (expected.x + expected.y + expected.z);
-        total += expected.x + expected.y + expected.z;
-      }
+  for (const LightChoosing choosing : {LightChoosing::kAuto, LightChoosing::kPower}) {
+    const Scene scene =
+        compile_instances(room_of_instances(), kernels(), InstanceMode::kShare, choosing);
+    const Plan plan = plan_of(scene, 6);
+    EXPECT_TRUE(plan.instances);
+    EXPECT_EQ(plan.light_tree, choosing == LightChoosing::kAuto);
+    uint64_t same = 0, all = 0;
+    double difference = 0, total = 0;
+    for (uint32_t sample = 0; sample < 3; ++sample) {
+      const std::vector<float> rgb = render_film(scene, plan, sample, sample + 1).resolve();
+      for (uint32_t y = 0; y < 24; ++y)
+        for (uint32_t x = 0; x < 32; ++x) {
+          const glm::dvec3 expected = reference_sample(scene, plan, x, y, sample);
+          const float* p = &rgb[3 * (size_t(y) * 32 + x)];
+          const glm::dvec3 found(p[0], p[1], p[2]);
+          same += glm::length(found - expected) <= 1e-3 * glm::length(expected);
+          ++all;
+          difference += found.x + found.y + found.z - (expected.x + expected.y + expected.z);
+          total += expected.x + expected.y + expected.z;
+        }
+    }
+    // Roulette lets paths go on for long, and at each vertex a few part by rounding.
+    EXPECT_GT(double(same) / double(all), .96);
+    EXPECT_LT(std::fabs(difference / total), 1e-2);
+    EXPECT_GT(total, 100);
   }
-  // Roulette lets paths go on for long, and at each vertex a few part by rounding.
-  EXPECT_GT(double(same) / double(all), .96);
-  EXPECT_LT(std::fabs(difference / total), 1e-2);
-  EXPECT_GT(total, 100);
 }
 
 TEST_P(InstanceRenders, PictureIsThatOfCopies) {

@@ -87,6 +87,28 @@ bool wants_kd_tree(const std::optional<Plugin>& accelerator, TreeChoice choice,
 
 }  // namespace
 
+namespace {
+
+/// How many there are if each triangle that shines is one.
+uint64_t lights_with_a_place(const ShapePlacer& shapes,
+                             const std::vector<const LightEntry*>& others) {
+  const auto lights = [](const PlacedShape& placed) -> uint64_t {
+    if (!placed.emissive()) return 0;
+    return placed.shape->kind == CompiledShape::Kind::kMesh ? placed.shape->mesh.triangles() : 1;
+  };
+  uint64_t count = 0;
+  for (const PlacedShape& placed : shapes.placed()) count += lights(placed);
+  for (const SharedShapes::Instance& instance : shapes.shared().instances)
+    for (const PlacedShape& mesh : shapes.shared().objects[instance.object].meshes)
+      count += lights(mesh);
+  constexpr std::string_view kWithAPlace[] = {"point", "goniometric", "spot", "projection"};
+  for (const LightEntry* light : others)
+    count += uint64_t(std::ranges::count(kWithAPlace, light->plugin.type));
+  return count;
+}
+
+}  // namespace
+
 Scene compile_scene(const Description& description, const CompileOptions& options, ThreadPool& pool,
                     Diagnostics& diagnostics) {
   Scene scene;
@@ -122,7 +144,11 @@ Scene compile_scene(const Description& description, const CompileOptions& option
     else
       other_lights.push_back(&light);
   }
-  ObjectCompiler objects(shapes.shared(), description, diagnostics);
+  // Every triangle counts here: what would be one light must not hide that there are many.
+  const bool rectangles = options.light_choice == LightChoosing::kPower ||
+                          options.light_choice == LightChoosing::kUniform ||
+                          lights_with_a_place(shapes, other_lights) < kTreeLights;
+  ObjectCompiler objects(shapes.shared(), description, rectangles, diagnostics);
   objects.build({options.block_width, kd_tree, {}}, pool, scene);
 
   // The origin moves to the middle of the scene, where floats are finest: a scene far from its
@@ -140,7 +166,7 @@ Scene compile_scene(const Description& description, const CompileOptions& option
       std::max(bounds.radius(), std::hypot(double(eye[0]), double(eye[1]), double(eye[2])));
   if (reach > 0) scene.radius = std::nextafter(float(reach), INFINITY);
 
-  GeometryRows rows(scene.center, options.ids, diagnostics);
+  GeometryRows rows(scene.center, options.ids, rectangles, diagnostics);
   for (const PlacedShape& placed : shapes.placed()) rows.add(placed);
   BinKeys keys;
   rows.add_keys(keys);

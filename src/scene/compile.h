@@ -98,7 +98,7 @@ enum class LightChoosing {
   kTree,     ///< by power, distance and direction, if two lights have a place
   kUniform,  ///< each alike: what the others are proved against
 };
-/// Lights with a place from which on a tree pays, rectangles as two (docs/decisions.md).
+/// Lights with a place from which on a tree over them pays (docs/decisions.md).
 inline constexpr uint32_t kTreeLights = 4;
 
 /// Numbers by which compositors tell things apart.

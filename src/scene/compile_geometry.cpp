@@ -115,7 +115,7 @@ void GeometryRows::add_mesh(const PlacedShape& placed, const Mesh& mesh) {
   degenerate_ += added.left_out;
   if (triangles_.size() == first) return;
   std::vector<uint32_t> partner;  // in a rectangle that is one light, counted from `first`
-  if (placed.emissive() && !placed.look.varies())
+  if (rectangles_ && placed.emissive() && !placed.look.varies())
     partner = find_rectangles(std::span(triangles_).subspan(first));
   for (size_t t = first; t < triangles_.size(); ++t) {
     TriangleRow<Value>& row = triangles_[t];

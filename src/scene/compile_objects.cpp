@@ -262,7 +262,7 @@ uint32_t ObjectCompiler::add_shapes(const SharedShapes::Instance& instance, cons
 
 std::vector<uint32_t> ObjectCompiler::find_partners(
     uint32_t object, const PlacedShape& mesh, std::span<const TriangleRow<Value>> triangles) const {
-  if (!mesh.emissive() || mesh.look.varies()) return {};
+  if (!rectangles_ || !mesh.emissive() || mesh.look.varies()) return {};
   return find_rectangles(triangles, [&](const RectangleSides& sides) {
     return std::all_of(shapes_.instances.begin(), shapes_.instances.end(),
                        [&](const SharedShapes::Instance& instance) {

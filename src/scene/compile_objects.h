@@ -108,9 +108,13 @@ class ShapePlacer {
 /// Turns shared objects into rows and trees.
 class ObjectCompiler {
  public:
-  ObjectCompiler(const SharedShapes& shapes, const Description& description,
+  /// rectangles: as in GeometryRows.
+  ObjectCompiler(const SharedShapes& shapes, const Description& description, bool rectangles,
                  Diagnostics& diagnostics)
-      : shapes_(shapes), description_(description), diagnostics_(diagnostics) {}
+      : shapes_(shapes),
+        description_(description),
+        rectangles_(rectangles),
+        diagnostics_(diagnostics) {}
   /// Triangles and trees of the objects, each in a space about its own middle.
   void build(const TreeOptions& options, ThreadPool& pool, Scene& scene);
   void add_to_bounds(Bounds& bounds) const;
@@ -173,6 +177,7 @@ class ObjectCompiler {
 
   const SharedShapes& shapes_;
   const Description& description_;
+  bool rectangles_;
   Diagnostics& diagnostics_;
   std::vector<Object> objects_;
 };

@@ -253,9 +253,9 @@ class EmissionRows {
 /// Collects rows in scene space; see compile_geometry.cpp.
 class GeometryRows {
  public:
-  /// ids: whether the scene gets prim_ids.
-  GeometryRows(const glm::dvec3& center, bool ids, Diagnostics& diagnostics)
-      : center_(center), ids_(ids), diagnostics_(diagnostics) {}
+  /// ids: whether the scene gets prim_ids; rectangles: whether pairs of triangles shine as one.
+  GeometryRows(const glm::dvec3& center, bool ids, bool rectangles, Diagnostics& diagnostics)
+      : center_(center), ids_(ids), rectangles_(rectangles), diagnostics_(diagnostics) {}
   void add(const PlacedShape& placed);
   void add_keys(BinKeys& keys) const;
   /// Writes tables and the tree's input into the scene. `occludes` stays empty if all do.
@@ -282,7 +282,7 @@ class GeometryRows {
     SurfaceIds ids;
   };
   glm::dvec3 center_;
-  bool ids_;
+  bool ids_, rectangles_;
   Diagnostics& diagnostics_;
   std::vector<TriangleRow<Value>> triangles_;
   std::vector<Run> triangle_runs_;

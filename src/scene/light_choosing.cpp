@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <span>
 
 #include "scene/alias_table.h"
 #include "scene/compile_parts.h"
@@ -54,14 +53,6 @@ void leave_half_to_places(std::vector<double>& power, uint32_t placed) {
     for (auto p = first_far; p != power.end(); ++p) *p *= near / far;
 }
 
-/// Whether a tree pays. Two square lamps are as many as the four triangles that they are made of.
-bool are_many(std::span<const LightRow<Value>> placed) {
-  const auto rectangles = std::count_if(
-      placed.begin(), placed.end(),
-      [](const LightRow<Value>& row) { return row.kind == uint32_t(LightKind::kRectangle); });
-  return placed.size() > 1 && placed.size() + size_t(rectangles) >= kTreeLights;
-}
-
 }  // namespace
 
 void prepare_light_choice(std::vector<LightRow<Value>>& rows, LightChoosing choosing,
@@ -75,9 +66,9 @@ void prepare_light_choice(std::vector<LightRow<Value>>& rows, LightChoosing choo
   scene.first_environment = uint32_t(environments - rows.begin());
   const auto placed = uint32_t(far - rows.begin()), all = uint32_t(rows.size());
   scene.first_far_light = placed;
-  const bool by_tree = ((choosing == LightChoosing::kAuto && are_many({rows.data(), placed})) ||
-                        (choosing == LightChoosing::kTree && placed >= 2)) &&
-                       make_tree(rows, placed, pool, scene);
+  const uint32_t least = choosing == LightChoosing::kTree ? 2 : kTreeLights;
+  const bool may = choosing == LightChoosing::kAuto || choosing == LightChoosing::kTree;
+  const bool by_tree = may && placed >= least && make_tree(rows, placed, pool, scene);
 
   for (uint32_t i = 0; i < placed && by_tree; ++i) rows[i].probability = 1;
   const uint32_t first = by_tree ? placed : 0;

@@ -1,6 +1,7 @@
 #pragma once
 // Pairs of triangles that make a rectangle shine as one light: half as many lights to choose from,
-// and places on them are spread more evenly (kernels/lights/rectangle.h).
+// and places on them are spread more evenly (kernels/lights/rectangle.h). Not where the light tree
+// chooses, which does better with halves.
 
 #include <functional>
 #include <glm/vec3.hpp>
