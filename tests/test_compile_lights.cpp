@@ -127,6 +127,23 @@ TEST_F(CompileLights, ManyLightsStayTriangles) {
   EXPECT_EQ(compile().lights.size(), 3u);
 }
 
+// There is no kernel for it: where two could be rectangles, there are many lights already.
+TEST_F(CompileLights, NoTreeIsOverRectanglesAlone) {
+  const auto bit = [](LightKind kind) { return 1u << uint32_t(kind); };
+  const uint32_t lamp = area_light(plain(1));
+  options.light_choice = LightChoosing::kTree;
+  shape(square()).area_light = lamp;
+  EXPECT_EQ(compile().light_tree.nodes.size(), 0u);
+  shape(triangle(), translate(0, 0, 2)).area_light = lamp;
+  Scene scene = compile();
+  EXPECT_GT(scene.light_tree.nodes.size(), 0u);
+  EXPECT_EQ(scene.light_kinds, bit(LightKind::kTriangle) | bit(LightKind::kRectangle));
+  description.shapes.back() = description.shapes.front();
+  scene = compile();
+  EXPECT_GT(scene.light_tree.nodes.size(), 0u);
+  EXPECT_EQ(scene.light_kinds, bit(LightKind::kTriangle));
+}
+
 // In shared objects the rectangle must be one in every instance.
 TEST_F(CompileLights, RectanglesOfSharedObjectsAreThoseOfAllInstances) {
   const auto lights_of = [&](const Matrix& second) {

@@ -13,8 +13,6 @@ void fill_light_tree(KernelTable& table) {
   table.add_tree_environment = &add_environment<A, true>;
   table.sample_tree_lights[uint32_t(LightKind::kTriangle)] =
       &sample_tree_lights<A, uint32_t(LightKind::kTriangle)>;
-  table.sample_tree_lights[uint32_t(LightKind::kRectangle)] =
-      &sample_tree_lights<A, uint32_t(LightKind::kRectangle)>;
   table.sample_tree_lights[kPlainLights] = &sample_tree_lights<A, kPlainLights>;
   table.sample_tree_lights[kAnyLights] = &sample_tree_lights<A, kAnyLights>;
 }

@@ -185,8 +185,7 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
   plan.light_tree = scene.light_tree.nodes.size() > 0;
   plan.light_by_place = lights_share_number(scene);
   if (plan.light_tree && plan.light_kernel < kPlainLights &&
-      plan.light_kernel != uint32_t(LightKind::kTriangle) &&
-      plan.light_kernel != uint32_t(LightKind::kRectangle))
+      plan.light_kernel != uint32_t(LightKind::kTriangle))
     plan.light_kernel = kPlainLights;
   plan.varying_emission = plan.lights && scene.emission.size() > 0;
   plan.environment = scene.first_environment < scene.lights.size();
