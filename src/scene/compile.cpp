@@ -85,10 +85,6 @@ bool wants_kd_tree(const std::optional<Plugin>& accelerator, TreeChoice choice,
   return false;
 }
 
-}  // namespace
-
-namespace {
-
 /// How many there are if each triangle that shines is one.
 uint64_t lights_with_a_place(const ShapePlacer& shapes,
                              const std::vector<const LightEntry*>& others) {

@@ -264,10 +264,6 @@ class Builder {
   double share_ = 0;
 };
 
-}  // namespace
-
-namespace {
-
 /// A disk shines to one side; other analytic shapes are taken to shine to all.
 LightBound shape_bound(const ShapeRow<Value>& shape, double luminance, double area) {
   const dvec3 center(shape.org_x, shape.org_y, shape.org_z);
