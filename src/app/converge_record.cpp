@@ -30,17 +30,17 @@ Json settings_of(const ConvergeRenders& renders, const ConvergeVariant& variant,
   const FilmSettings& film = loaded.scene.film;
   return {{"options", variant.options},
           {"crop", {film.crop_x0, film.crop_x1, film.crop_y0, film.crop_y1}},
-          {"integrator", integrator_name(loaded.integrator)},
+          {"integrator", name_of(loaded.integrator, kIntegrators)},
           {"max_depth", plan.transport.max_depth},
-          {"sampler", sampler_name(plan.sampler)},
+          {"sampler", name_of(plan.sampler, kSamplers)},
           {"sample_set", plan.set_columns * plan.set_rows},
           {"light_tree", plan.light_tree},
-          {"light_sampling", light_sampling_name(plan.light_sampling)},
+          {"light_sampling", name_of(plan.light_sampling, kLightSamplings)},
           {"roulette", plan.transport.roulette_depth == kNoRoulette
                            ? Json("off")
                            : Json(plan.transport.roulette_depth)},
-          {"colour", colour_name(colour_mode(variant.arguments))},
-          {"compat", dialect_name(variant.arguments.dialect)}};
+          {"colour", name_of(colour_mode(variant.arguments), kColourModes)},
+          {"compat", name_of(variant.arguments.dialect, kDialects)}};
 }
 
 Json dropped_of(const RenderTotals& totals) {

@@ -114,7 +114,7 @@ std::string holds(const Description& description, const Scene& scene) {
   text +=
       fmt::format("  film       {}x{}, crop x {}..{} y {}..{}, \"{}\", tone map {}, gamma {:.3g}\n",
                   film.width, film.height, film.crop_x0, film.crop_x1, film.crop_y0, film.crop_y1,
-                  film.filename, tone_map_name(film.tone_map), film.gamma);
+                  film.filename, name_of(film.tone_map, kToneMaps), film.gamma);
   text += fmt::format("  filter     {}, radius {:.3g} x {:.3g} pixels\n",
                       filter_word(scene.filter.kind), scene.filter.radius_x, scene.filter.radius_y);
   text += fmt::format("  integrator {}, depth {}\n", scene.direct_only ? "direct" : "path",

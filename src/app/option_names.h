@@ -86,35 +86,4 @@ std::string_view name_of(T wanted, const std::array<std::pair<std::string_view, 
   return "unknown";
 }
 
-inline std::string_view integrator_name(Integrator integrator) {
-  return name_of(integrator, kIntegrators);
-}
-inline std::string_view sampler_name(SamplerKind sampler) {
-  return name_of(sampler, kSamplers);
-}
-inline std::string_view colour_name(ColourMode colour) {
-  return name_of(colour, kColourModes);
-}
-inline std::string_view light_choice_name(LightChoosing choosing) {
-  return name_of(choosing, kLightChoices);
-}
-inline std::string_view light_sampling_name(LightSampling ways) {
-  return name_of(ways, kLightSamplings);
-}
-inline std::string_view tree_name(TreeChoice tree) {
-  return name_of(tree, kTrees);
-}
-inline std::string_view instance_mode_name(InstanceMode instances) {
-  return name_of(instances, kInstanceModes);
-}
-inline std::string_view compensation_name(EnergyCompensation compensation) {
-  return name_of(compensation, kCompensations);
-}
-inline std::string_view dialect_name(Dialect dialect) {
-  return name_of(dialect, kDialects);
-}
-inline std::string_view tone_map_name(ToneMap tone_map) {
-  return name_of(tone_map, kToneMaps);
-}
-
 }  // namespace yat

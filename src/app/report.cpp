@@ -46,8 +46,9 @@ std::string first_line(const RenderReport& report) {
   return fmt::format(
       "{}: {}x{}{}, {:.6g} samples per pixel, {}, depth {}, {}, seed {}, {}, {} thread{}\n",
       report.scene, report.film.width, report.film.height, crop, report.samples_per_pixel(),
-      integrator_name(report.integrator), report.transport.max_depth, sampler_name(report.sampler),
-      report.transport.seed, report.isa, report.threads, report.threads == 1 ? "" : "s");
+      name_of(report.integrator, kIntegrators), report.transport.max_depth,
+      name_of(report.sampler, kSamplers), report.transport.seed, report.isa, report.threads,
+      report.threads == 1 ? "" : "s");
 }
 
 /// One row for each stage that ran: where the time went and how full the lanes were.
@@ -148,21 +149,21 @@ namespace {
 std::string unusual_options(const RenderReport& report) {
   std::string text;
   if (report.light_choice != LightChoosing::kAuto)
-    text += fmt::format(" --light-choice {}", light_choice_name(report.light_choice));
+    text += fmt::format(" --light-choice {}", name_of(report.light_choice, kLightChoices));
   if (report.light_sampling != LightSampling::kBoth)
-    text += fmt::format(" --light-sampling {}", light_sampling_name(report.light_sampling));
+    text += fmt::format(" --light-sampling {}", name_of(report.light_sampling, kLightSamplings));
   if (report.transport.roulette_depth != TransportOptions{}.roulette_depth)
     text += report.transport.roulette_depth == kNoRoulette
                 ? " --roulette off"
                 : fmt::format(" --roulette {}", report.transport.roulette_depth);
   if (report.tree != TreeChoice::kFromScene)
-    text += fmt::format(" --tree {}", tree_name(report.tree));
+    text += fmt::format(" --tree {}", name_of(report.tree, kTrees));
   if (report.instances != InstanceMode::kAuto)
-    text += fmt::format(" --instances {}", instance_mode_name(report.instances));
+    text += fmt::format(" --instances {}", name_of(report.instances, kInstanceModes));
   if (report.image_bytes != ImageStore::kDefaultLimit)
     text += fmt::format(" --texture-cache {}", report.image_bytes >> 20);
   if (report.compensation != EnergyCompensation::kAuto)
-    text += fmt::format(" --energy-compensation {}", compensation_name(report.compensation));
+    text += fmt::format(" --energy-compensation {}", name_of(report.compensation, kCompensations));
   return text;
 }
 
@@ -182,12 +183,12 @@ std::vector<std::string> replay_commands(const RenderReport& report) {
         report.scene, report.film.width, report.film.height, std::max(0., (x - .5) / width),
         std::min(1., (x + .5) / width), std::max(0., (y - .5) / height),
         std::min(1., (y + .5) / height), drops.entry[i].sample, drops.entry[i].sample + 1,
-        integrator_name(report.integrator), report.transport.max_depth,
-        sampler_name(report.sampler),
+        name_of(report.integrator, kIntegrators), report.transport.max_depth,
+        name_of(report.sampler, kSamplers),
         has_sets(report.sampler) ? fmt::format(" --sample-set {}", report.sample_set)
                                  : std::string(),
-        unusual_options(report), dialect_name(report.dialect), colour_name(report.colour),
-        report.transport.seed, report.isa));
+        unusual_options(report), name_of(report.dialect, kDialects),
+        name_of(report.colour, kColourModes), report.transport.seed, report.isa));
   }
   return commands;
 }

@@ -103,16 +103,16 @@ std::string stats_json(const RenderReport& report) {
   record["settings"] = {
       {"crop",
        {report.film.crop_x0, report.film.crop_x1, report.film.crop_y0, report.film.crop_y1}},
-      {"integrator", integrator_name(report.integrator)},
+      {"integrator", name_of(report.integrator, kIntegrators)},
       {"max_depth", report.transport.max_depth},
-      {"sampler", sampler_name(report.sampler)},
-      {"light_choice", light_choice_name(report.light_choice)},
-      {"light_sampling", light_sampling_name(report.light_sampling)},
+      {"sampler", name_of(report.sampler, kSamplers)},
+      {"light_choice", name_of(report.light_choice, kLightChoices)},
+      {"light_sampling", name_of(report.light_sampling, kLightSamplings)},
       {"roulette", report.transport.roulette_depth == kNoRoulette
                        ? Json(nullptr)
                        : Json(report.transport.roulette_depth)},
-      {"colour", colour_name(report.colour)},
-      {"tonemap", tone_map_name(report.film.tone_map)},
+      {"colour", name_of(report.colour, kColourModes)},
+      {"tonemap", name_of(report.film.tone_map, kToneMaps)},
       {"exposure", report.film.exposure_stops},
       {"outputs", report.outputs}};
   record["time"] = {{"read", report.time.read},
