@@ -1,8 +1,10 @@
 #pragma once
 // Lights as rows, and calls of sample_lights, for tests of light kernels.
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -134,6 +136,53 @@ inline Batch many_samples(const KernelTable& k, const LightScene& scene, uint32_
   }
   b.run(k, scene.view, kind);
   return b;
+}
+
+/// What many_samples gives a receiver with normal z: the mean, and its standard error.
+struct MeanIrradiance {
+  double mean, error;
+};
+inline MeanIrradiance mean_irradiance(const Batch& b) {
+  double sum = 0, squares = 0;
+  for (uint32_t i = 0; i < b.n; ++i) {
+    const LightSample<Value> s = b.samples.row(i);
+    const double x = std::max(0., double(s.wi_z)) * double(s.weight_r);
+    sum += x;
+    squares += x * x;
+  }
+  const double mean = sum / b.n;
+  return {mean, std::sqrt((squares / b.n - mean * mean) / b.n)};
+}
+
+/// One sample for every pair of a place and a pair of numbers: `places`, and 40 up to 100 `size`
+/// from the origin; corners of the square of numbers, its middle, and 4 from inside.
+inline Batch batch_at(std::vector<glm::dvec3> places, double size, Random& random) {
+  for (int i = 0; i < 40; ++i)
+    places.push_back(size * std::pow(10., double(random.in(-7, 2))) * random.direction());
+  constexpr float kNearlyOne = 0x1.fffffep-1f;
+  std::vector<glm::vec2> numbers = {
+      {0, 0}, {0, kNearlyOne}, {kNearlyOne, 0}, {kNearlyOne, kNearlyOne}, {.5f, .5f}};
+  for (int i = 0; i < 4; ++i) numbers.push_back({random.unit(), random.unit()});
+  Batch b(uint32_t(places.size() * numbers.size()));
+  for (uint32_t i = 0; i < b.n; ++i) {
+    const glm::vec2 uv = numbers[i % numbers.size()];
+    b.set(i, places[i / numbers.size()], uv.x, uv.y, 0);
+  }
+  return b;
+}
+/// Sample i holds numbers, and none but 0 where the receiver is `behind` the light. Whether it has
+/// a density: its weight must be one over that.
+inline bool expect_numbers(const Batch& b, uint32_t i, bool behind) {
+  const LightSample<Value> s = b.samples.row(i);
+  const glm::dvec3 p = b.pos(i);
+  EXPECT_TRUE(s.weight_r >= 0 && std::isfinite(s.weight_r)) << p.x << ", " << p.y << ", " << p.z;
+  EXPECT_TRUE(s.pdf >= 0 && !std::isnan(s.pdf)) << p.x << ", " << p.y << ", " << p.z;
+  if (behind) {
+    EXPECT_EQ(s.weight_r, 0.f) << p.x << ", " << p.y << ", " << p.z;
+  }
+  if (!(s.weight_r > 1e-30f && std::isfinite(s.pdf))) return false;
+  expect_close(double(s.pdf) * double(s.weight_r), 1, 1e-5, "pdf", i);
+  return true;
 }
 
 /// A triangle light from a place: Van Oosterom, Strackee 1983, in double precision.

@@ -252,15 +252,7 @@ TEST_P(Lights, IrradianceOfKnownShapes) {
   for (const ClosedForm& form : forms) {
     const LightScene scene(form.lights);
     const Batch b = many_samples(kernels(), scene, form.kind, {0, 0, 0}, seed++);
-    double sum = 0, squares = 0;
-    for (uint32_t i = 0; i < kMany; ++i) {
-      const LightSample<Value> s = b.samples.row(i);
-      const double x = std::max(0., double(s.wi_z)) * double(s.weight_r);
-      sum += x;
-      squares += x * x;
-    }
-    const double mean = sum / kMany;
-    const double error = std::sqrt((squares / kMany - mean * mean) / kMany);
+    const auto [mean, error] = mean_irradiance(b);
     EXPECT_LE(std::abs(mean - form.irradiance), 3 * error + 1e-7 * form.irradiance) << form.name;
     EXPECT_LE(error, 1e-2 * form.irradiance) << form.name;
   }
