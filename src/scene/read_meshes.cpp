@@ -69,7 +69,13 @@ void subdivide_as_said(Parameters& p, Mesh& mesh) {
   if (options.levels > 0) subdivide(mesh, options);
 }
 
-/// Whole polygons of `corners` vertices each. False, and an error, if an index is out of range.
+/// An error at the name of the mesh's file. False: there is no mesh.
+bool leave_out(Parameters& p, std::string_view why) {
+  p.diagnostics().error(p.loc("filename"), fmt::format("{}: the shape is left out", why));
+  return false;
+}
+
+/// False, and an error, if an index is out of range.
 bool check_indices(Parameters& p, std::string_view name, std::span<const int32_t> indices,
                    uint32_t vertices) {
   for (size_t i = 0; i < indices.size(); ++i)
@@ -83,6 +89,7 @@ bool check_indices(Parameters& p, std::string_view name, std::span<const int32_t
   return true;
 }
 
+/// Indices of whole polygons of `corners` vertices each; an error where some are left over.
 std::span<const int32_t> whole_polygons(Parameters& p, std::string_view name,
                                         std::span<const int32_t> indices, size_t corners) {
   const size_t rest = indices.size() % corners;
@@ -201,17 +208,12 @@ bool read_plymesh(Parameters& p, const Description& description, Mesh& mesh) {
   accept_mesh_names(p);
   const SourceLoc loc = p.loc("filename");
   const std::string path = find_data_file(name, loc, description, p.diagnostics());
-  if (path.empty()) {
-    p.diagnostics().error(loc,
-                          fmt::format("mesh file \"{}\" not found: the shape is left out", name));
-    return false;
-  }
+  if (path.empty()) return leave_out(p, fmt::format("mesh file \"{}\" not found", name));
   PlyMesh ply;
   try {
     ply = read_ply(path);
   } catch (const PlyError& error) {
-    p.diagnostics().error(loc, fmt::format("{}: the shape is left out", error.what()));
-    return false;
+    return leave_out(p, error.what());
   }
   for (const std::string& warning : ply.warnings) p.diagnostics().warning(loc, warning);
   if (ply.colours)
@@ -223,11 +225,7 @@ bool read_plymesh(Parameters& p, const Description& description, Mesh& mesh) {
   mesh.indices = std::move(ply.triangles);
   mesh.positions = mesh.owned_positions;
   mesh.uvs = mesh.owned_uvs;
-  if (mesh.indices.empty()) {
-    p.diagnostics().error(
-        loc, fmt::format("mesh file \"{}\" has no faces: the shape is left out", name));
-    return false;
-  }
+  if (mesh.indices.empty()) return leave_out(p, fmt::format("mesh file \"{}\" has no faces", name));
   mesh.normals_from_file = !mesh.owned_normals.empty() && !smooth;
   if (!mesh.normals_from_file) mesh.owned_normals = vertex_normals(mesh, NormalRule::kUnitMean);
   mesh.normals = mesh.owned_normals;
@@ -239,24 +237,15 @@ bool read_stlmesh(Parameters& p, const Description& description, Mesh& mesh) {
   const std::string name = p.text("filename", "");
   const bool recenter = p.flag("recenter_mesh", false);
   accept_mesh_names(p);
-  const SourceLoc loc = p.loc("filename");
-  const std::string path = find_data_file(name, loc, description, p.diagnostics());
-  if (path.empty()) {
-    p.diagnostics().error(loc,
-                          fmt::format("mesh file \"{}\" not found: the shape is left out", name));
-    return false;
-  }
+  const std::string path = find_data_file(name, p.loc("filename"), description, p.diagnostics());
+  if (path.empty()) return leave_out(p, fmt::format("mesh file \"{}\" not found", name));
   try {
     mesh.owned_positions = read_stl(path);
   } catch (const StlError& error) {
-    p.diagnostics().error(loc, fmt::format("{}: the shape is left out", error.what()));
-    return false;
+    return leave_out(p, error.what());
   }
-  if (mesh.owned_positions.empty()) {
-    p.diagnostics().error(
-        loc, fmt::format("mesh file \"{}\" has no faces: the shape is left out", name));
-    return false;
-  }
+  if (mesh.owned_positions.empty())
+    return leave_out(p, fmt::format("mesh file \"{}\" has no faces", name));
   if (recenter) {
     Bounds bounds;
     for (size_t v = 0; v < mesh.owned_positions.size() / 3; ++v) {
