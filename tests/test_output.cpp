@@ -32,7 +32,7 @@ class Output : public testing::Test {
     settings_.width = 20, settings_.height = 10;
     settings_.crop_x0 = 2, settings_.crop_x1 = 2 + kWidth;
     settings_.crop_y0 = 3, settings_.crop_y1 = 3 + kHeight;
-    metadata_ = {"scenes/room.lxs", 0x0123456789abcdefu, 7, 64, 1.5, "avx2", "0.1.0"};
+    metadata_ = {"scenes/room.lxs", 0x0123456789abcdefu, 7, 64, 1.5, "avx2", "0.1.0", {}};
   }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   size_t files() const {

@@ -1,5 +1,7 @@
 // Textured renders: against the oracle path by path, and closed forms.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -132,7 +134,7 @@ std::string type_of(MaterialKind kind) {
     case MaterialKind::kMix:
       return "\"mix\" \"string namedmaterial1\" [\"one\"] \"string namedmaterial2\" [\"other\"]";
     default:
-      return "\"" + std::string(material_traits(kind).name) + "\"";
+      return fmt::format("\"{}\"", material_traits(kind).name);
   }
 }
 

@@ -31,8 +31,7 @@ std::string uv_quad(const std::string& points, const std::string& uv) {
 }
 /// [-1, 1]^2 at a height, shining downwards, u along x and v along y from 0 to 1.
 std::string lamp_quad(double height = 1) {
-  const std::string z = " " + std::to_string(height) + " ";
-  return uv_quad("-1 -1" + z + "-1 1" + z + "1 1" + z + "1 -1" + z, "0 0 0 1 1 1 1 0");
+  return uv_quad(fmt::format("-1 -1 {0} -1 1 {0} 1 1 {0} 1 -1 {0}", height), "0 0 0 1 1 1 1 0");
 }
 const std::string kSlope =
     "Texture \"slope\" \"color\" \"bilerp\" \"color v00\" [.2 1 3] \"color v01\" [4 0 1] "

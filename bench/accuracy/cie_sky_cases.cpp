@@ -130,9 +130,9 @@ Case sky_case(const Setting& s, const Point& at, double published) {
     const CieSky& sky = s.skies->sky(s.type, s.to_north);
     double sum = 0;
     for (int i = 0; i < s.spots; ++i) {
-      const Vec at = p + kSpotWidth * ((i + .5) / s.spots - .5) * kNorth;
-      sum += through_opening(at, n, s.opening, s.steps(at), s.panels,
-                             [&](const Vec& d) { return s.radiance(sky, at, d); });
+      const Vec spot = p + kSpotWidth * ((i + .5) / s.spots - .5) * kNorth;
+      sum += through_opening(spot, n, s.opening, s.steps(spot), s.panels,
+                             [&](const Vec& d) { return s.radiance(sky, spot, d); });
     }
     return Known{100 * sum / s.spots};
   };
