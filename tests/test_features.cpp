@@ -93,6 +93,26 @@ TEST_P(Features, ThatTheViewerIsBehindDoesNotShow) {
   EXPECT_NEAR(most, 1, 1e-6);
 }
 
+TEST_P(Features, OfACoatedFloor) {
+  // What the coat and its base divide among them is seen once.
+  const Scene scene = compile_text(
+      floor_text(
+          "MakeNamedMaterial \"base\" \"string type\" [\"matte\"] \"color Kd\" [.3 .3 .3]\n"
+          "Material \"glossycoating\" \"string basematerial\" [\"base\"] \"color Ks\" [.3 .3 "
+          ".3]\n"),
+      kernels());
+  const Pictures p = render_features(scene, make_plan(scene, kernels(), {}), 16);
+  const auto normal = p.of(Feature::kNormal), position = p.of(Feature::kPosition);
+  uint32_t seen = 0;
+  for (uint32_t i = 0; i < kSide * kSide; ++i) {
+    if (i % kSide >= kSide / 2) continue;
+    ++seen;
+    EXPECT_NEAR(normal[3 * i + 2], 1, 1e-5);
+    EXPECT_NEAR(position[3 * i + 2], -2, 1e-5);
+  }
+  EXPECT_EQ(seen, kSide * (kSide / 2));
+}
+
 /// A quad about (x, 0, -2), 2 wide, 4 long, flat, with texture coordinates.
 std::string tile_text(double x) {
   const std::string left = std::to_string(x - 1), right = std::to_string(x + 1);

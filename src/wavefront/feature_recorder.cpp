@@ -29,9 +29,9 @@ SurfaceIds FeatureRecorder::ids_of(uint32_t prim, uint32_t instance) const {
 }
 
 void FeatureRecorder::record_surfaces(const Surface<ConstColumn>& s,
-                                      const PathState<ConstColumn>& paths, const uint32_t* order,
-                                      const uint32_t* instance, const SampleSum<Column>& sums,
-                                      uint32_t n) {
+                                      const PathState<ConstColumn>& paths, const float* weights,
+                                      const uint32_t* order, const uint32_t* instance,
+                                      const SampleSum<Column>& sums, uint32_t n) {
   const bool with_ids = film_->has_ids();
   const auto add = [&](Feature feature, size_t pixel, float x, float y, float z) {
     if (film_->has(feature)) film_->plane(feature).add(pixel, x, y, z);
@@ -41,8 +41,7 @@ void FeatureRecorder::record_surfaces(const Surface<ConstColumn>& s,
     const uint32_t slot = paths.slot[i];
     if (seen_[slot] != kNothing) continue;
     seen_[slot] = kSurface;
-    // Nothing has scattered the path yet: its throughput is the filter's weight, tinted by nothing.
-    const float weight = paths.throughput_r[i];
+    const float weight = weights[i];
     const size_t pixel = sums.pixel[slot];
     const bool outside = s.ng_x[i] * s.wo_x[i] + s.ng_y[i] * s.wo_y[i] + s.ng_z[i] * s.wo_z[i] >= 0;
     const float side = outside ? weight : -weight;

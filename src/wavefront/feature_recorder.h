@@ -30,9 +30,10 @@ class FeatureRecorder {
   /// Paths that start in these slots.
   void start(const SampleSum<Column>& sums, const uint32_t* slots, uint32_t n);
   /// Surfaces of a bin that scatters: those that are their paths' first.
-  /// Row i is row order[i] of the batch in `instance`; both are null for what is no instance.
+  /// Row i counts weight[i] times, and is row order[i] of the batch in `instance`; both are null
+  /// for what is no instance.
   void record_surfaces(const Surface<ConstColumn>& surfaces, const PathState<ConstColumn>& paths,
-                       const uint32_t* order, const uint32_t* instance,
+                       const float* weight, const uint32_t* order, const uint32_t* instance,
                        const SampleSum<Column>& sums, uint32_t n);
   /// Moves paths that are about to be scattered again to the row of indirect light.
   void turn_indirect(const uint32_t* depth, uint32_t* slots, uint32_t n) const;

@@ -132,9 +132,11 @@ ShadePlan plan_material(const Scene& scene, const MaterialForm& form, bool roule
       plan.children.push_back(child);
       out.turned[c] = split.turned[c];
     }
+    out.solid = plan.children[out.child[0]].solid && plan.children[out.child[1]].solid;
     return out;
   }
   out.veil = traits.veil;
+  out.solid = !traits.veil && !traits.see_through;
   out.sample_lights = plan.lights && !traits.delta && !traits.see_through;
   out.draw_choice = out.sample_lights && scene.lights.size() > 1 && !plan.light_by_place;
   out.all_around = traits.all_around;

@@ -203,6 +203,7 @@ void Worker::shade_bin(const BinPlan& bin, uint32_t begin, uint32_t end) {
                  .tangents = {},
                  .coats = {},
                  .slots = batch_.chunk_paths.columns().slot,
+                 .seen_weight = batch_.chunk_paths.view().throughput_r,
                  .geometry = bin.bin.geometry,
                  .order = batch_.order.data() + begin,
                  .instance = bin.bin.instanced ? batch_.instance.data() : nullptr,
@@ -269,8 +270,8 @@ void Worker::shade_rows(const ShadePlan& plan, const ChunkRows& rows) {
   const uint32_t n = rows.n;
   const ParameterView parameters = parameters_of(plan, rows);
   if (features_.active() && !material_traits(plan.material).see_through) {
-    features_.record_surfaces(rows.surfaces, rows.paths, rows.order, rows.instance,
-                              batch_.sums.columns(), n);
+    features_.record_surfaces(rows.surfaces, rows.paths, rows.seen_weight, rows.order,
+                              rows.instance, batch_.sums.columns(), n);
     features_.turn_indirect(rows.paths.depth, rows.slots, n);
   }
   const Randoms<Column>& randoms = batch_.randoms.columns();
@@ -364,10 +365,16 @@ void Worker::shade_split(const ShadePlan& plan, const ChunkRows& rows, const flo
                   .tangents = {},
                   .coats = {},
                   .slots = split.paths.columns().slot,
+                  .seen_weight = split.paths.view().throughput_r,
                   .geometry = rows.geometry,
                   .order = nullptr,
                   .instance = rows.instance,
                   .n = taken[c]};
+    if (features_.active() && plan.solid) {
+      for (uint32_t i = 0; i < taken[c]; ++i)
+        split.seen_weight[i] = rows.seen_weight[split.order[c][i]];
+      own.seen_weight = split.seen_weight.data();
+    }
     if (plan.coats)
       kernels_.weigh_child(split.share.data(), split.order[c].data(), c, split.paths.columns(),
                            taken[c]);

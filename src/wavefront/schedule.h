@@ -92,6 +92,9 @@ class Worker {
     Tangent<ConstColumn> tangents;  ///< null columns where no material needs them
     Coat<ConstColumn> coats;        ///< null columns where nothing lies over the material
     uint32_t* slots;                ///< those of `paths`, to be changed
+    /// With which feature pictures count the rows, of paths that nothing has scattered yet: their
+    /// throughput, without what a choice between parts of one solid surface has made of it.
+    const float* seen_weight;
     GeometryKind geometry;
     const uint32_t* order;     ///< rows of the hits; for instances only
     const uint32_t* instance;  ///< of all hits; null: not of shared objects

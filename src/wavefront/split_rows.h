@@ -18,8 +18,9 @@ struct SplitRows {
   Table<PathState> paths{kChunkRows};
   Table<Tangent> tangents{kChunkRows};
   Table<Coat> coats{kChunkRows};
-  AlignedArray<float> u{kChunkRows};       ///< of one child: the number that decides inside it
-  AlignedArray<uint32_t> hit{kChunkRows};  ///< of one child: rows of the hits, of instances
+  AlignedArray<float> u{kChunkRows};            ///< of one child: the number that decides inside it
+  AlignedArray<uint32_t> hit{kChunkRows};       ///< of one child: rows of the hits, of instances
+  AlignedArray<float> seen_weight{kChunkRows};  ///< of one child: see Worker::ChunkRows
   // Of the parent's rows:
   Table<Coat> own_coats{kChunkRows};
   AlignedArray<float> share{kChunkRows}, left{kChunkRows};
@@ -34,8 +35,8 @@ struct SplitRows {
 
   size_t bytes() const {
     size_t sum = surfaces.bytes() + paths.bytes() + tangents.bytes() + coats.bytes() +
-                 own_coats.bytes() + u.bytes() + hit.bytes() + share.bytes() + left.bytes() +
-                 child.bytes();
+                 own_coats.bytes() + u.bytes() + hit.bytes() + seen_weight.bytes() + share.bytes() +
+                 left.bytes() + child.bytes();
     for (int c = 0; c < 2; ++c) sum += parameter[c].bytes() + order[c].bytes() + weight[c].bytes();
     return sum;
   }
