@@ -136,6 +136,31 @@ void add_lights(const KernelTable& table) {
   }
 }
 
+/// Direct light alone, as where a surface asks several lights.
+void add_connect(const KernelTable& table) {
+  for (uint32_t kind = 0; kind < kMaterialKinds; ++kind) {
+    const auto kernel = table.connect[kind];
+    if (!kernel) continue;  // it has no use for light samples
+    add_benchmark(
+        std::string("connect/") + kMaterialNames[kind], table,
+        [&table, kernel, kind](benchmark::State& state) {
+          const KernelInputs& in = inputs_for(table, kAllLights);
+          const MaterialInputs own(in, MaterialKind(kind));
+          const ShadingRows* rows = own.rows;
+          if (!rows) return no_rows(state);
+          const ShadeInput input{
+              rows->surfaces.view(), rows->paths.view(), {}, rows->lights.view(), own.parameters};
+          Table<ShadowRay> shadow(kRows);
+          ShadeOutput output;
+          output.shadow_rays = shadow.columns();
+          DropLog drops;
+          time_rows(
+              state, kRows, [&] { output.shadow_count = 0; },
+              [&] { kernel(input, in.plan.transport, output, drops, kRows); });
+        });
+  }
+}
+
 void add_shade(const KernelTable& table) {
   for (uint32_t kind = 0; kind < kMaterialKinds; ++kind) {
     if (material_traits(MaterialKind(kind)).splits) continue;  // add_split
@@ -280,6 +305,7 @@ void add_shading_benchmarks(const KernelTable& table) {
   add_emission_benchmark(table);
   add_environment_benchmark(table);
   add_lights(table);
+  add_connect(table);
   add_shade(table);
   add_split(table);
   add_accumulate(table);

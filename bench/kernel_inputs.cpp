@@ -294,9 +294,10 @@ bool record_bin(KernelInputs& in, uint32_t bin) {
   draw(in, Dimension::kChoice, paths, randoms.light_choice, randoms.lobe, kRows);
   draw(in, Dimension::kBsdf, paths, randoms.bsdf_u, randoms.bsdf_v, kRows);
   draw(in, Dimension::kRoulette, paths, randoms.roulette, nullptr, kRows);
-  const auto sample_lights = in.kernels->sample_lights[in.plan.light_kernel];
-  if (rows.sample_lights && sample_lights)
-    sample_lights(in.view, rows.surfaces.view(), rows.randoms.view(), rows.lights.columns(), kRows);
+  if (rows.sample_lights)
+    if (const LightGroup& group = in.plan.light_groups[0]; !group.tree)
+      in.kernels->sample_lights[group.kernel](in.view, rows.surfaces.view(), rows.randoms.view(),
+                                              rows.lights.columns(), kRows);
   in.bins.push_back(std::move(rows));
   return true;
 }

@@ -198,8 +198,8 @@ class Recorder {
     drawn.roulette = nullptr;
     LightSample<ConstColumn> lights{};
     if (matte ? plan_.lights : plan.sample_lights) {
-      kernels_.sample_lights[plan_.light_kernel](view_, surfaces_.view(), drawn, lights_.columns(),
-                                                 n);
+      kernels_.sample_lights[plan_.light_groups[0].kernel](view_, surfaces_.view(), drawn,
+                                                           lights_.columns(), n);
       lights = lights_.view();
     }
     const MaterialKind kind = matte ? MaterialKind::kMatte : plan.bin.material;

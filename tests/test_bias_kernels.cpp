@@ -97,11 +97,11 @@ TEST(BiasOfKernels, LightsOfOneKindAndOfAll) {
   const KernelTable& kernels = select_kernels();
   for (const auto& [name, text] : {kScenes[0], kScenes[1]}) {
     const Scene scene = compile_text(text(), kernels);
-    EXPECT_LT(make_plan(scene, kernels, {}).light_kernel, kPlainLights) << name;
+    EXPECT_LT(make_plan(scene, kernels, {}).light_groups[0].kernel, kPlainLights) << name;
     const std::vector<float> special = picture_of(scene, kernels, side_of(5));
     for (const uint32_t general : {kPlainLights, kAnyLights}) {
       Side side = side_of(5);
-      side.change = [general](Plan& plan) { plan.light_kernel = general; };
+      side.change = [general](Plan& plan) { plan.light_groups[0].kernel = general; };
       expect_same_paths(name, picture_of(scene, kernels, side), special, .999);
     }
   }

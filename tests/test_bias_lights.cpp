@@ -46,9 +46,9 @@ TEST(BiasOfLightSampling, Veils) {
   prove_light_sampling(veils_text(), 6, 16, 16, 64);
 }
 
-/// By power and by the tree against each light alike.
+/// By power, by the tree, and all together if they are not too many, against each light alike.
 void prove_light_choice(const std::string& text, uint32_t depth, uint32_t samples,
-                        uint32_t uniform_samples) {
+                        uint32_t uniform_samples, bool all = true) {
   const KernelTable& kernels = select_kernels();
   const auto runs = [&](LightChoosing choosing, uint32_t number, uint32_t count) {
     const Scene scene = compile_lamps(text, kernels, choosing);
@@ -58,22 +58,56 @@ void prove_light_choice(const std::string& text, uint32_t depth, uint32_t sample
   const Runs uniform = runs(LightChoosing::kUniform, 0, uniform_samples);
   expect_same("power", runs(LightChoosing::kPower, 1, samples), uniform);
   expect_same("tree", runs(LightChoosing::kTree, 2, samples), uniform);
+  if (all) expect_same("all", runs(LightChoosing::kAll, 3, samples), uniform);
 }
 
 TEST(BiasOfLightChoice, Plates) {
   prove_light_choice(plates_text(), 4, 16, 16);
 }
 TEST(BiasOfLightChoice, Lamps) {
-  prove_light_choice(lamps_room_text(), 5, 16, 32);
+  prove_light_choice(lamps_room_text(), 5, 16, 32, false);
 }
 TEST(BiasOfLightChoice, LightsOfAllKinds) {
-  prove_light_choice(lamps_room_text(other_lights_text()), 5, 16, 32);
+  prove_light_choice(lamps_room_text(other_lights_text()), 5, 16, 32, false);
 }
 TEST(BiasOfLightChoice, Screens) {
   prove_light_choice(screens_text(), 4, 32, 64);
 }
 TEST(BiasOfLightChoice, Veils) {
   prove_light_choice(veils_text(), 6, 16, 32);
+}
+
+// ---- Roulette of shadow rays -------------------------------------------------------------------
+
+/// Bounds of a third and of three times the picture's mean against none.
+void prove_shadow_roulette(const std::string& text, uint32_t depth, uint32_t samples,
+                           LightChoosing choosing = LightChoosing::kAuto) {
+  const KernelTable& kernels = select_kernels();
+  const Scene scene = compile_lamps(text, kernels, choosing);
+  const auto runs = [&](float bound, uint32_t number) {
+    Side side = side_of(LightSampling::kBoth, depth, samples);
+    side.change = [bound](Plan& plan) { plan.transport.shadow_bound = bound; };
+    return render_runs(scene, kernels, side, number);
+  };
+  const Runs off = runs(0, 0);
+  double sum = 0;
+  for (const float value : off.pictures.front()) sum += double(value);
+  const double mean = sum / double(off.pictures.front().size());
+  expect_same("third", runs(float(mean / 3), 1), off);
+  expect_same("three_times", runs(float(mean * 3), 2), off);
+}
+
+TEST(BiasOfShadowRoulette, Box) {
+  prove_shadow_roulette(box_text(), 6, 16);
+}
+TEST(BiasOfShadowRoulette, Plates) {
+  prove_shadow_roulette(plates_text(), 4, 32, LightChoosing::kAll);
+}
+TEST(BiasOfShadowRoulette, Open) {
+  prove_shadow_roulette(open_text(), 5, 16);
+}
+TEST(BiasOfShadowRoulette, Veils) {
+  prove_shadow_roulette(veils_text(), 6, 16, LightChoosing::kAll);
 }
 
 }  // namespace

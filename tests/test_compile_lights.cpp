@@ -265,6 +265,51 @@ TEST_F(CompileLights, LampsUnderASkyKeepHalfOfTheChances) {
   EXPECT_LT(compile().lights.row(0).probability, .01f);
 }
 
+TEST_F(CompileLights, TwoLightsAreBothAskedIfOneIsASkyOrASun) {
+  const auto asks_all = [&] {
+    const Scene scene = compile();
+    for (uint32_t i = 0; scene.every_light && i < scene.lights.size(); ++i)
+      EXPECT_EQ(scene.lights.row(i).probability, 1) << i;
+    EXPECT_EQ(scene.light_choice.size(), scene.every_light ? 0 : scene.lights.size());
+    return scene.every_light;
+  };
+  shape(square(), scale(100, 100, 100));
+  light(plugin("sun", {numbers(ParameterType::kVector, "sundir", {0, 0, 1})}));
+  EXPECT_FALSE(asks_all()) << "one light";
+  light(plugin("sky", {}));
+  EXPECT_TRUE(asks_all());
+  for (const LightChoosing choosing : {LightChoosing::kPower, LightChoosing::kUniform}) {
+    options.light_choice = choosing;
+    EXPECT_FALSE(asks_all());
+  }
+  options.light_choice = LightChoosing::kAuto;
+  light(plugin("point", {number("gain", 1e12f)}));
+  EXPECT_FALSE(asks_all()) << "three lights";
+  options.light_choice = LightChoosing::kAll;
+  EXPECT_TRUE(asks_all());
+}
+
+TEST_F(CompileLights, LampsAndLightsOfNoWeightAreNotAskedEach) {
+  shape(square(), scale(100, 100, 100));
+  light(plugin("infinite", {}));
+  const double sky =
+      light_power(compile().lights.row(0), compile().colour, double(compile().radius));
+  const auto asks_all_beside = [&](double lamp) {
+    light(plugin("point", {number("gain", float(lamp * sky / (4 * kPi)))}));
+    const bool asks_all = compile().every_light;
+    description.lights.pop_back();
+    return asks_all;
+  };
+  EXPECT_TRUE(asks_all_beside(1));
+  EXPECT_TRUE(asks_all_beside(.06));
+  EXPECT_FALSE(asks_all_beside(.04));
+  EXPECT_TRUE(asks_all_beside(18));
+  EXPECT_FALSE(asks_all_beside(20));
+  description.lights.clear();
+  for (int i = 0; i < 2; ++i) light(plugin("point", {}));
+  EXPECT_FALSE(compile().every_light) << "two lamps";
+}
+
 TEST_F(CompileLights, DistantLight) {
   shape(triangle());
   light(plugin("distant", {numbers(ParameterType::kPoint, "from", {0, 0, 2}),
@@ -272,6 +317,7 @@ TEST_F(CompileLights, DistantLight) {
         translate(7, 7, 7));
   light(plugin("distant", {number("theta", .25f)}));
   light(plugin("distant", {number("theta", .0001f)}));
+  options.light_choice = LightChoosing::kPower;
   const Scene scene = compile();
   const auto l = scene.lights.row(0);
   EXPECT_EQ(l.a_z, 1) << "towards the light";

@@ -341,7 +341,7 @@ TEST_P(Environment, TheSameBitsForAnyThreadsAndBatches) {
   const Scene scene = compile_text(open_air_text(24, 16), kernels());
   const Plan plan = make_plan(scene, kernels(), {});
   EXPECT_TRUE(plan.environment);
-  EXPECT_EQ(plan.light_kernel, kAnyLights);
+  EXPECT_EQ(plan.light_groups[0].kernel, kAnyLights);
   const Film film = render_film(scene, plan, 0, 8);
   EXPECT_TRUE(same_bits(film, render_film(scene, plan, 0, 8, 2, 96, 8)));
   EXPECT_TRUE(same_bits(film, render_film(scene, plan, 0, 8, 1, 160, 16)));

@@ -35,6 +35,76 @@ TEST_P(LightRenders, PathsAgreeOneByOneWithTheOracle) {
   }
 }
 
+// ---- Every light at every surface --------------------------------------------------------------
+
+TEST_P(LightRenders, EveryLightIsSampledWhereAllAreAsked) {
+  const auto scene_of = [&](uint32_t lamps, const std::string& more) {
+    return compile_lamps(lamp_room_text(8, 8, lamps, more), kernels(), LightChoosing::kAll);
+  };
+  const Scene scene = scene_of(1, other_lights_text());
+  const Plan plan = make_plan(scene, kernels(), {});
+  ASSERT_EQ(scene.lights.size(), 8u);
+  ASSERT_EQ(plan.light_groups.size(), 8u);
+  EXPECT_FALSE(plan.light_by_place || plan.light_tree);
+  for (uint32_t i = 0; i < 8; ++i) {
+    const LightGroup& group = plan.light_groups[i];
+    const LightRow<Value> row = scene.lights.row(i);
+    EXPECT_EQ(group.rows.first, i);
+    EXPECT_EQ(group.rows.end, i + 1);
+    EXPECT_EQ(row.probability, 1);
+    EXPECT_FALSE(group.tree);
+    EXPECT_EQ(group.kernel, row.kind < kPlainLightKinds ? row.kind : uint32_t(kAnyLights));
+  }
+  for (const BinPlan& bin : plan.bins) EXPECT_FALSE(bin.draw_choice);
+  EXPECT_EQ(make_plan(scene_of(1, ""), kernels(), {}).light_groups.size(), 1u);
+  // Without light samples there are none.
+  PlanOptions options;
+  options.max_depth = 0;
+  EXPECT_TRUE(make_plan(scene, kernels(), options).light_groups.empty());
+}
+
+TEST_P(LightRenders, MoreLightsThanASurfaceMayAskAreSaid) {
+  std::vector<std::string> warnings;
+  Diagnostics diagnostics([&](Severity severity, std::string_view line) {
+    if (severity == Severity::kWarning) warnings.emplace_back(line);
+  });
+  CompileOptions options;
+  options.block_width = kernels().lanes;
+  options.light_choice = LightChoosing::kAll;
+  ThreadPool pool(1);
+  const Scene scene = compile_scene(
+      parse_scene(lamp_room_text(8, 8, kMostAskedLights + 1), "lamps.lxs", ".", diagnostics),
+      options, pool, diagnostics);
+  EXPECT_FALSE(scene.every_light);
+  EXPECT_GT(scene.light_tree.nodes.size(), 0u);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("--light-choice all"), std::string::npos) << warnings[0];
+}
+
+TEST_P(LightRenders, PathsThatAskEveryLightAgreeWithTheOracle) {
+  const Scene scene =
+      compile_lamps(lamp_room_text(24, 18, 1, other_lights_text()), kernels(), LightChoosing::kAll);
+  ASSERT_TRUE(scene.every_light);
+  for (const float bound : {0.f, .05f}) {
+    PlanOptions options;
+    options.max_depth = 5;
+    options.seed = 3;
+    Plan plan = make_plan(scene, kernels(), options);
+    plan.transport.shadow_bound = bound;
+    EXPECT_GT(agreement(scene, plan, 4, 2e-2), .9) << bound;
+  }
+}
+
+TEST_P(LightRenders, AskingEveryLightKeepsTheBitsOfAnyBatchAndThreads) {
+  const Scene scene =
+      compile_lamps(lamp_room_text(33, 21, 1, other_lights_text()), kernels(), LightChoosing::kAll);
+  Plan plan = make_plan(scene, kernels(), {});
+  plan.transport.shadow_bound = .05f;
+  const Film expected = render_film(scene, plan, 0, 5);
+  for (const uint32_t batch_rows : {16u, 100u, 8192u})
+    EXPECT_TRUE(same_bits(expected, render_film(scene, plan, 0, 5, 3, batch_rows, 5)));
+}
+
 /// Sums of blocks of pixels over every sample: [block and channel][sample].
 std::vector<std::vector<double>> block_sums(const Scene& scene, const Plan& plan, uint32_t samples,
                                             uint32_t block) {

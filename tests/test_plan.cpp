@@ -24,7 +24,7 @@ TEST(Plan, SkipsWhatTheSceneDoesNotHold) {
   const Plan plan = make_plan(scene, kernels, {});
   EXPECT_TRUE(plan.triangles);
   EXPECT_FALSE(plan.spheres || plan.planes || has_lens(plan.camera) || plan.shadow_mask);
-  EXPECT_EQ(plan.light_kernel, uint32_t(LightKind::kPoint));
+  EXPECT_EQ(plan.light_groups[0].kernel, uint32_t(LightKind::kPoint));
   EXPECT_EQ(plan.first_lasting_bin, 2u);
   ASSERT_EQ(plan.bins.size(), 2u);
   EXPECT_TRUE(plan.bins[1].sample_lights && plan.bins[1].draw_direction);
@@ -66,7 +66,7 @@ TEST(Plan, RunsWhatTheSceneHolds) {
   const Plan plan = make_plan(scene, kernels, {});
   EXPECT_TRUE(plan.triangles && plan.spheres && plan.planes && has_lens(plan.camera) &&
               plan.shadow_mask && plan.lights);
-  EXPECT_EQ(plan.light_kernel, kPlainLights);
+  EXPECT_EQ(plan.light_groups[0].kernel, kPlainLights);
   uint32_t delta = 0, lobes = 0;
   for (uint32_t b = 1; b < plan.bins.size(); ++b) {
     const BinPlan& bin = plan.bins[b];

@@ -7,6 +7,7 @@
 
 #include "kernel_columns.h"
 #include "kernels/materials/all.h"
+#include "kernels/rng_scalar.h"
 #include "surface_vectors.h"
 
 namespace yat {
@@ -440,6 +441,87 @@ TEST_P(ShadeStage, ShadingNormalsBeyondTheHorizonGiveNumbers) {
     EXPECT_LE(c.next.row(i).throughput_r, 1.f);
   }
   EXPECT_GT(c.out.path_count, n / 2);
+}
+
+// ---- Shadow rays alone -------------------------------------------------------------------------
+
+TEST_P(ShadeStage, ConnectMakesTheShadowRaysOfShading) {
+  const KernelTable& k = kernels();
+  const auto rows = matte_rows();
+  for (const uint32_t n : tail_counts(k.lanes)) {
+    ShadeCase shaded(n), connected(n);
+    for (ShadeCase* c : {&shaded, &connected}) c->options.shadow_bound = .05f;
+    shaded.run(k, MaterialKind::kMatte, {rows.view().words, 3}, true);
+    const ShadeInput in{connected.surfaces.view(),
+                        connected.paths.view(),
+                        {},
+                        connected.lights.view(),
+                        {rows.view().words, 3}};
+    ShadeOutput out;
+    out.shadow_rays = connected.shadows.columns();
+    k.connect[uint32_t(MaterialKind::kMatte)](in, connected.options, out, connected.drops, n);
+    EXPECT_TRUE(connected.shadows.untouched());
+    EXPECT_EQ(out.path_count + out.finished_count, 0u);
+    ASSERT_EQ(out.shadow_count, shaded.out.shadow_count);
+    for (uint32_t i = 0; i < out.shadow_count; ++i) {
+      const ShadowRay<Value> a = connected.shadows.row(i), b = shaded.shadows.row(i);
+      for (const auto field : {&ShadowRay<Value>::org_x, &ShadowRay<Value>::dir_y,
+                               &ShadowRay<Value>::add_r, &ShadowRay<Value>::add_b})
+        EXPECT_EQ(a.*field, b.*field);
+      EXPECT_EQ(a.slot, b.slot);
+    }
+  }
+}
+
+TEST_P(ShadeStage, FaintShadowRaysPlayRoulette) {
+  const KernelTable& k = kernels();
+  const auto rows = matte_rows();
+  constexpr uint32_t kRows = 20000, kLight = 2;
+  ShadeCase all(kRows), played(kRows);
+  const auto connect = [&](ShadeCase& c, float bound) {
+    c.options.seed = 7;
+    c.options.shadow_bound = bound;
+    const ShadeInput in{.surfaces = c.surfaces.view(),
+                        .paths = c.paths.view(),
+                        .randoms = {},
+                        .lights = c.lights.view(),
+                        .parameters = {rows.view().words, 3},
+                        .light = kLight};
+    ShadeOutput out;
+    out.shadow_rays = c.shadows.columns();
+    k.connect[uint32_t(MaterialKind::kMatte)](in, c.options, out, c.drops, kRows);
+    return out.shadow_count;
+  };
+  const uint32_t rays = connect(all, 0);
+  constexpr float kBound = .03f;
+  const uint32_t left = connect(played, kBound);
+  uint32_t next = 0, faint = 0, survivors = 0;
+  double before = 0, after = 0, variance = 0;
+  for (uint32_t i = 0; i < rays; ++i) {
+    const ShadowRay<Value> ray = all.shadows.row(i);
+    const float most = std::max({ray.add_r, ray.add_g, ray.add_b});
+    const PathState<Value> path = all.paths.row(ray.slot - 1000);
+    const float chance = most < kBound ? std::max(most / kBound, kLeastShadowChance) : 1.f;
+    const float u = random_pair(SamplerKind::kIndependent, 7, of_light(Dimension::kShadow, kLight),
+                                path.pixel, path.sample, path.depth)
+                        .first;
+    faint += most < kBound;
+    before += double(most);
+    variance += double(most) * double(most) * (1 / double(chance) - 1);
+    if (u >= chance) continue;
+    ASSERT_LT(next, left);
+    const ShadowRay<Value> traced = played.shadows.row(next++);
+    survivors += most < kBound;
+    EXPECT_EQ(traced.slot, ray.slot);
+    EXPECT_EQ(traced.dir_x, ray.dir_x);
+    EXPECT_NEAR(traced.add_g, ray.add_g / chance, 1e-6f * ray.add_g / chance);
+    after += double(std::max({traced.add_r, traced.add_g, traced.add_b}));
+  }
+  EXPECT_EQ(next, left);
+  EXPECT_GT(faint, kRows / 10);
+  EXPECT_GT(survivors, 0u);
+  EXPECT_LT(survivors, faint);
+  EXPECT_LT(std::fabs(after - before), 4.5 * std::sqrt(variance)) << "false alarm: 7e-6";
 }
 
 }  // namespace

@@ -40,11 +40,12 @@ inline constexpr std::array<std::pair<std::string_view, EnergyCompensation>, 3> 
     {{"auto", EnergyCompensation::kAuto},
      {"on", EnergyCompensation::kOn},
      {"off", EnergyCompensation::kOff}}};
-inline constexpr std::array<std::pair<std::string_view, LightChoosing>, 4> kLightChoices = {
+inline constexpr std::array<std::pair<std::string_view, LightChoosing>, 5> kLightChoices = {
     {{"auto", LightChoosing::kAuto},
      {"power", LightChoosing::kPower},
      {"tree", LightChoosing::kTree},
-     {"uniform", LightChoosing::kUniform}}};
+     {"uniform", LightChoosing::kUniform},
+     {"all", LightChoosing::kAll}}};
 inline constexpr std::array<std::pair<std::string_view, LightSampling>, 3> kLightSamplings = {
     {{"mis", LightSampling::kBoth},
      {"lights", LightSampling::kLights},

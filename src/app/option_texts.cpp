@@ -17,9 +17,11 @@ constexpr OptionText kInstances = {
     "--instances", "auto|copy|share", "auto",
     "objects placed by ObjectInstance: copied, stored once, or as their size says"};
 constexpr OptionText kLightChoice = {
-    "--light-choice", "auto|power|tree|uniform", "auto",
-    "how a lamp is chosen: by power, by a tree that knows distances too, or each alike; auto: the "
-    "tree from four lamps on, else power, of which sky and sun get at most half"};
+    "--light-choice", "auto|power|tree|uniform|all", "auto",
+    "how a lamp is chosen: by power, by a tree that knows distances too, or each alike; all: none "
+    "is, all are asked (up to 8); auto: both of two lights if one is a sky or a sun and both are "
+    "of "
+    "weight, the tree from four lamps on, else power, of which sky and sun get at most half"};
 constexpr OptionText kLightSampling = {
     "--light-sampling", "mis|lights|bsdf", "mis",
     "how light is found: by asking lamps and by chance, weighted; by asking alone; by chance "

@@ -23,6 +23,7 @@ void fill_material(KernelTable& table, MaterialKind kind, auto traits) {
     else
       table.shade[k] =
           &shade_scattering<A, Material, Record, t.delta, t.needs_lobe, t.needs_direction, t.veil>;
+    if constexpr (!t.see_through && !t.delta) table.connect[k] = &connect<A, Material, Record>;
     table.bsdf_evaluate[k] = &bsdf_evaluate<A, Material, Record>;
     table.bsdf_sample[k] = &bsdf_sample<A, Material, Record>;
   }

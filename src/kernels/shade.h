@@ -5,7 +5,8 @@
 //   1. see-through materials: the path goes on behind the surface, whatever its depth. So do the
 //      samples of veils that pass; 3 to 6 are for the others.
 //   2. depth >= max_depth: the path ends (it came here for its emission).
-//   3. light sampling (not for delta materials): a shadow ray, if it can bring anything.
+//   3. light sampling (not for delta materials): a shadow ray, if it can bring anything. Faint
+//      ones play roulette (TransportOptions::shadow_bound), by numbers that are hashes.
 //   4. the next direction; a path of no weight ends.
 //   5. Russian roulette from roulette_depth on: survival with q = min(1, kRouletteChance * largest
 //      channel of the throughput), so that a survivor's throughput never grows above 1 /
@@ -15,6 +16,7 @@
 // before they meet it.
 
 #include "kernels/coat.h"
+#include "kernels/draw.h"
 #include "kernels/drop.h"
 #include "kernels/material.h"
 #include "kernels/math.h"
@@ -127,17 +129,72 @@ YAT_INLINE void append_paths(const Vec3<A>& org, const Vec3<A>& dir, const PathS
   }
 }
 
-/// Direct light of active rows: f |cos| L / pdf, weighted against the BSDF's own chance of finding
+/// Rows from i on as a material that scatters sees them.
+template <class A, template <template <class> class> class Record>
+struct ShadedRows {
+  Mask<A> present, scatters;  ///< scatters: vertices below max_depth
+  PathStateW<A> path;
+  UInt<A> vertex;
+  Vec3<A> pos, wo;
+  Float<A> offset;
+  Record<Lanes<A>::template Of> parameters;
+  ShadingFrame<A> shading;
+
+  YAT_INLINE ShadedRows(const ShadeInput& in, const TransportOptions& options, uint32_t i,
+                        uint32_t n) {
+    present = tail_mask<A>(i, n);
+    path = load<A>(in.paths, i);
+    vertex = path.depth & UInt<A>(0xffffu);
+    scatters = present & mask_of<A>(vertex < UInt<A>(options.max_depth));
+    pos = {load<A>(in.surfaces.pos_x, i), load<A>(in.surfaces.pos_y, i),
+           load<A>(in.surfaces.pos_z, i)};
+    const Vec3<A> ng{load<A>(in.surfaces.ng_x, i), load<A>(in.surfaces.ng_y, i),
+                     load<A>(in.surfaces.ng_z, i)};
+    const Vec3<A> ns{load<A>(in.surfaces.ns_x, i), load<A>(in.surfaces.ns_y, i),
+                     load<A>(in.surfaces.ns_z, i)};
+    wo = {load<A>(in.surfaces.wo_x, i), load<A>(in.surfaces.wo_y, i), load<A>(in.surfaces.wo_z, i)};
+    offset = load<A>(in.surfaces.offset, i);
+    parameters = load_parameters<A, Record>(in.parameters,
+                                            only<A>(present, load<A>(in.surfaces.parameter, i)), i);
+    shading = ShadingFrame<A>::of(ng, ns, wo);
+    shading.view.distance = load<A>(in.surfaces.distance, i);
+    if (in.tangents.x)
+      shading.align(
+          {load<A>(in.tangents.x, i), load<A>(in.tangents.y, i), load<A>(in.tangents.z, i)}, wo);
+  }
+};
+
+/// Roulette of shadow rays below options.shadow_bound: survivors are as much brighter.
+template <class A>
+YAT_INLINE void drop_faint(const ShadeInput& in, const TransportOptions& options, uint32_t i,
+                           const UInt<A>& depth, Mask<A>& active, Spectrum<A>& add) {
+  const Float<A> most =
+      largest<A>(Spectrum<A>{xsimd::abs(add.r), xsimd::abs(add.g), xsimd::abs(add.b)});
+  const Float<A> bound(options.shadow_bound);
+  const Mask<A> faint = active & (most < bound);
+  if (!any<A>(faint)) return;
+  const Float<A> chance = xsimd::max(most / bound, Float<A>(kLeastShadowChance));
+  // Crossings count: every surface that a path crosses at a vertex may have a shadow ray.
+  const UInt<A> key = random_key(options.seed, uint32_t(of_light(Dimension::kShadow, in.light)),
+                                 UInt<A>(load<A>(in.paths.pixel, i)), depth);
+  const Float<A> u =
+      unit_float<A>(independent_words(key, UInt<A>(load<A>(in.paths.sample, i))).first);
+  active = active & !(faint & (u >= chance));
+  add = xsimd::select(faint, Float<A>(1.f) / chance, Float<A>(1.f)) * add;
+}
+
+/// Direct light of the rows: f |cos| L / pdf, weighted against the BSDF's own chance of finding
 /// the light (power heuristic; lights without density count in full).
-template <class A, template <class> class Material, class Parameters>
-YAT_INLINE void append_shadow_rays(const LightSample<ConstColumn>& lights, uint32_t i,
-                                   const Coat<ConstColumn>& coats, const Vec3<A>& pos,
-                                   const Float<A>& offset, const ShadingFrame<A>& shading,
-                                   const Parameters& parameters, const PathStateW<A>& path,
-                                   Mask<A> active, const uint32_t* pixel, const uint32_t* sample,
-                                   ShadeOutput& out, DropLog& log) {
+template <class A, template <class> class Material, template <template <class> class> class Record>
+YAT_INLINE void append_shadow_rays(const ShadeInput& in, const TransportOptions& options,
+                                   const ShadedRows<A, Record>& rows, uint32_t i, ShadeOutput& out,
+                                   DropLog& log) {
   const Float<A> zero(0.f), one(1.f);
-  const LightSample<Lanes<A>::template Of> light = load<A>(lights, i);
+  const uint32_t *pixel = in.paths.pixel + i, *sample = in.paths.sample + i;
+  const ShadingFrame<A>& shading = rows.shading;
+  const PathStateW<A>& path = rows.path;
+  Mask<A> active = rows.scatters;
+  const LightSample<Lanes<A>::template Of> light = load<A>(in.lights, i);
   const Spectrum<A> arriving{light.weight_r, light.weight_g, light.weight_b};
   active = active & is_not_black<A>(arriving);
   const Vec3<A> wi{light.wi_x, light.wi_y, light.wi_z};
@@ -150,21 +207,22 @@ YAT_INLINE void append_shadow_rays(const LightSample<ConstColumn>& lights, uint3
   if (!any<A>(active)) return;
 
   Spectrum<A> f =
-      xsimd::abs(wi_local.z) * Material<A>::evaluate(parameters, shading.view, wi_local);
-  if (coats.outside) f = f * coat_passes<A>(coats, i, shading.view.wo, wi_local);
-  const Float<A> scattered = Material<A>::pdf(parameters, shading.view, wi_local);
+      xsimd::abs(wi_local.z) * Material<A>::evaluate(rows.parameters, shading.view, wi_local);
+  if (in.coats.outside) f = f * coat_passes<A>(in.coats, i, shading.view.wo, wi_local);
+  const Float<A> scattered = Material<A>::pdf(rows.parameters, shading.view, wi_local);
   const Float<A> share =
       xsimd::select(light.pdf > zero, power_heuristic<A>(light.pdf, scattered), one);
   drop_lanes<A>(active, !(is_finite_positive<A>(arriving) & is_finite_positive<A>(light.pdf)),
                 DropCause::kLight, pixel, sample, log);
   drop_lanes<A>(active, !is_finite_positive<A>(f), DropCause::kBsdf, pixel, sample, log);
   drop_lanes<A>(active, !is_finite_positive<A>(scattered), DropCause::kPdf, pixel, sample, log);
-  const Spectrum<A> add =
+  Spectrum<A> add =
       share * (f * arriving) * Spectrum<A>{path.throughput_r, path.throughput_g, path.throughput_b};
   active = active & is_not_black<A>(add);
   drop_lanes<A>(active, !is_finite<A>(add), DropCause::kOther, pixel, sample, log);
+  drop_faint<A>(in, options, i, path.depth, active, add);
 
-  const Vec3<A> org = spawn_point<A>(pos, offset, shading.ng, same_side);
+  const Vec3<A> org = spawn_point<A>(rows.pos, rows.offset, shading.ng, same_side);
   ShadowRay<Lanes<A>::template Of> ray;
   ray.org_x = org.x;
   ray.org_y = org.y;
@@ -180,6 +238,15 @@ YAT_INLINE void append_shadow_rays(const LightSample<ConstColumn>& lights, uint3
   out.shadow_count += count_true<A>(active);
 }
 
+/// See KernelTable::connect.
+template <class A, template <class> class Material, template <template <class> class> class Record>
+void connect(const ShadeInput& in, const TransportOptions& options, ShadeOutput& out, DropLog& log,
+             uint32_t n) noexcept {
+  for (uint32_t i = 0; i < n; i += kLanes<A>)
+    append_shadow_rays<A, Material, Record>(in, options, ShadedRows<A, Record>(in, options, i, n),
+                                            i, out, log);
+}
+
 /// See KernelTable::shade: materials that scatter.
 template <class A, template <class> class Material, template <template <class> class> class Record,
           bool kDelta, bool kNeedsLobe, bool kNeedsDirection, bool kVeil>
@@ -188,38 +255,21 @@ void shade_scattering(const ShadeInput& in, const TransportOptions& options, Sha
   const Float<A> zero(0.f), one(1.f);
   const bool sample_lights = !kDelta && in.lights.wi_x;
   for (uint32_t i = 0; i < n; i += kLanes<A>) {
-    const Mask<A> present = tail_mask<A>(i, n);
+    const ShadedRows<A, Record> rows(in, options, i, n);
     const uint32_t *pixel = in.paths.pixel + i, *sample = in.paths.sample + i;
-    PathStateW<A> path = load<A>(in.paths, i);
-    const UInt<A> vertex = path.depth & UInt<A>(0xffffu);
-    const Mask<A> scatters = present & mask_of<A>(vertex < UInt<A>(options.max_depth));
-
-    const Vec3<A> pos{load<A>(in.surfaces.pos_x, i), load<A>(in.surfaces.pos_y, i),
-                      load<A>(in.surfaces.pos_z, i)};
-    const Vec3<A> ng{load<A>(in.surfaces.ng_x, i), load<A>(in.surfaces.ng_y, i),
-                     load<A>(in.surfaces.ng_z, i)};
-    const Vec3<A> ns{load<A>(in.surfaces.ns_x, i), load<A>(in.surfaces.ns_y, i),
-                     load<A>(in.surfaces.ns_z, i)};
-    const Vec3<A> wo{load<A>(in.surfaces.wo_x, i), load<A>(in.surfaces.wo_y, i),
-                     load<A>(in.surfaces.wo_z, i)};
-    const Float<A> offset = load<A>(in.surfaces.offset, i);
-    const auto parameters = load_parameters<A, Record>(
-        in.parameters, only<A>(present, load<A>(in.surfaces.parameter, i)), i);
-    ShadingFrame<A> shading = ShadingFrame<A>::of(ng, ns, wo);
-    shading.view.distance = load<A>(in.surfaces.distance, i);
-    if (in.tangents.x)
-      shading.align(
-          {load<A>(in.tangents.x, i), load<A>(in.tangents.y, i), load<A>(in.tangents.z, i)}, wo);
+    const Mask<A>& present = rows.present;
+    const Mask<A>& scatters = rows.scatters;
+    const UInt<A>& vertex = rows.vertex;
+    const ShadingFrame<A>& shading = rows.shading;
+    PathStateW<A> path = rows.path;
 
     if constexpr (!kDelta)
-      if (sample_lights)
-        append_shadow_rays<A, Material>(in.lights, i, in.coats, pos, offset, shading, parameters,
-                                        path, scatters, pixel, sample, out, log);
+      if (sample_lights) append_shadow_rays<A, Material, Record>(in, options, rows, i, out, log);
 
     const Float<A> lobe = kNeedsLobe ? load<A>(in.randoms.lobe, i) : zero;
     const Float<A> u = kNeedsDirection ? load<A>(in.randoms.bsdf_u, i) : zero;
     const Float<A> v = kNeedsDirection ? load<A>(in.randoms.bsdf_v, i) : zero;
-    BsdfSample<A> next = Material<A>::sample(parameters, shading.view, lobe, u, v);
+    BsdfSample<A> next = Material<A>::sample(rows.parameters, shading.view, lobe, u, v);
     if (in.coats.outside)
       next.weight = next.weight * coat_passes<A>(in.coats, i, shading.view.wo, next.wi);
     Vec3<A> wi = shading.frame.to_scene(next.wi);
@@ -229,7 +279,7 @@ void shade_scattering(const ShadeInput& in, const TransportOptions& options, Sha
     Mask<A> alive = scatters, passes(false);
     if constexpr (kVeil) {
       passes = next.wi.z < zero;
-      wi = select(passes, -wo, wi);
+      wi = select(passes, -rows.wo, wi);
       alive = present & (scatters | passes);
       drop_lanes<A>(alive, passes & mask_of<A>(path.depth >= UInt<A>(0xffff0000u)),
                     DropCause::kCrossings, pixel, sample, log);
@@ -265,7 +315,7 @@ void shade_scattering(const ShadeInput& in, const TransportOptions& options, Sha
     path.passed = zero;
     // What absorbs does so from the surface on.
     if constexpr (requires { Material<A>::kFilled; })
-      path.passed = way_to_spawn<A>(offset, geometric);
+      path.passed = way_to_spawn<A>(rows.offset, geometric);
     UInt<A> next_vertex = vertex + UInt<A>(1u);
     if constexpr (!kDelta)
       next_vertex = xsimd::max(next_vertex, UInt<A>(options.least_depth_after_scatter));
@@ -277,8 +327,8 @@ void shade_scattering(const ShadeInput& in, const TransportOptions& options, Sha
       next_vertex = select<A>(passes, before.depth + UInt<A>(0x10000u), next_vertex);
     }
     path.depth = next_vertex;
-    append_paths<A>(spawn_point<A>(pos, offset, shading.ng, geometric > zero), wi, path, alive,
-                    present, out);
+    append_paths<A>(spawn_point<A>(rows.pos, rows.offset, shading.ng, geometric > zero), wi, path,
+                    alive, present, out);
   }
 }
 

@@ -80,8 +80,22 @@ struct DrawKey {
 /// Named random dimensions, each a pair of numbers (kernels/rng.h says how they are spread).
 /// Camera dimensions are drawn once per path, the others at every scattering vertex.
 /// kChild, which child of a material that is made of others, also at surfaces that are only
-/// crossed.
-enum class Dimension : uint32_t { kFilm, kLens, kLight, kChoice, kBsdf, kRoulette, kChild, kCount };
+/// crossed; kShadow, whether a faint shadow ray is traced, by hashing with every sampler.
+enum class Dimension : uint32_t {
+  kFilm,
+  kLens,
+  kLight,
+  kChoice,
+  kBsdf,
+  kRoulette,
+  kChild,
+  kShadow,
+  kCount
+};
+/// The dimension of light number `light` where every light is sampled; number 0 has the named one.
+constexpr Dimension of_light(Dimension dimension, uint32_t light) {
+  return Dimension(uint32_t(dimension) + light * uint32_t(Dimension::kCount));
+}
 
 /// Russian roulette: a path goes on with the chance min(1, kRouletteChance * largest channel of its
 /// throughput), so that only paths below a third of the light that they began with play
@@ -96,7 +110,12 @@ struct TransportOptions {
   uint32_t roulette_depth = 1;    ///< first vertex at which Russian roulette may end a path
   bool hide_environment = false;  ///< from the camera; what it lights shows it
   uint32_t seed = 0;
+  /// Shadow rays that may bring less than this [radiance, largest band] are traced with the chance
+  /// min(1, what they may bring / shadow_bound), at least kLeastShadowChance; 0: all are traced.
+  float shadow_bound = 0;
 };
+/// 4096 values of 24-bit numbers lie below it, so that the chance is known to 2.5e-4 of itself.
+inline constexpr float kLeastShadowChance = 0x1p-12f;
 
 /// Columns that a shade kernel appends to; each `*_count` is the next free row.
 struct ShadeOutput {
@@ -118,6 +137,7 @@ struct ShadeInput {
   ParameterView parameters;
   Tangent<ConstColumn> tangents = {};  ///< null columns: materials see any frame about the normal
   Coat<ConstColumn> coats = {};        ///< null columns: nothing lies over the material
+  uint32_t light = 0;                  ///< number of the light, where every light is sampled
 };
 
 enum class GeometryKind : uint32_t {
@@ -314,6 +334,10 @@ struct KernelTable {
   /// Direct light (if input.lights is given) and the next ray.
   void (*shade[kMaterialKinds])(const ShadeInput&, const TransportOptions&, ShadeOutput&, DropLog&,
                                 uint32_t n) noexcept;
+  /// Direct light alone, where several lights are sampled: of `output` only shadow rays are
+  /// written. Null for materials that have no use for light samples.
+  void (*connect[kMaterialKinds])(const ShadeInput&, const TransportOptions&, ShadeOutput&,
+                                  DropLog&, uint32_t n) noexcept;
 
   // -- split: materials made of two others (kernels/split.h); null for other kinds --------------
   /// Per row: share[i] in [0,1], with which the second child is there, and the parameter rows of

@@ -143,6 +143,7 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   // Every triangle counts here: what would be one light must not hide that there are many.
   const bool rectangles = options.light_choice == LightChoosing::kPower ||
                           options.light_choice == LightChoosing::kUniform ||
+                          options.light_choice == LightChoosing::kAll ||
                           lights_with_a_place(shapes, other_lights) < kTreeLights;
   ObjectCompiler objects(shapes.shared(), description, rectangles, diagnostics);
   objects.build({options.block_width, kd_tree, {}}, pool, scene);
@@ -181,6 +182,10 @@ Scene compile_scene(const Description& description, const CompileOptions& option
   scene.light_samples = shapes.light_samples() + other_lights.size();
   rows.emission().finish(uint32_t(lights.size()), shapes.emission(), light_tables, scene);
   finish_lights(std::move(lights), light_tables, options.light_choice, pool, scene);
+  if (options.light_choice == LightChoosing::kAll && scene.lights.size() > kMostAskedLights)
+    diagnostics.warning({}, fmt::format("--light-choice all: {} lights are more than the {} that a "
+                                        "surface may ask together: auto is used",
+                                        scene.lights.size(), kMostAskedLights));
   if (scene.prim_bin.empty() && scene.instances.empty() &&
       scene.first_environment == scene.lights.size())
     diagnostics.fail({}, description.shapes.empty()

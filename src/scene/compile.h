@@ -93,11 +93,15 @@ inline constexpr uint64_t kCopiedTriangles = 1 << 18;
 
 /// --light-choice: how a surface chooses the light that it asks for.
 enum class LightChoosing {
-  kAuto,     ///< by the tree from kTreeLights on; else by power, half or more to those with a place
+  kAuto,     ///< by the tree from kTreeLights on; else by power, half or more to those with a
+             ///< place; two lights of weight, one a sky or a sun, are both asked
   kPower,    ///< by power alone
   kTree,     ///< by power, distance and direction, if two lights have a place
   kUniform,  ///< each alike: what the others are proved against
+  kAll,      ///< all are asked, up to kMostAskedLights of them; else as kAuto
 };
+/// Lights that a surface may ask: each is a shadow ray, and memory for a batch of them.
+inline constexpr uint32_t kMostAskedLights = 8;
 /// Lights with a place from which on a tree over them pays (docs/decisions.md).
 inline constexpr uint32_t kTreeLights = 4;
 
@@ -158,6 +162,7 @@ struct Scene {
   RowTable<LightRow> lights;
   RowTable<EmissionRow> emission;  ///< per light, where that of any varies
   std::vector<TextureProgram> emission_programs;
+  bool every_light = false;  ///< surfaces ask all lights, each of probability 1; else one of them
   RowTable<LightChoice> light_choice;
   LightTree light_tree;
   float light_tree_scale = 1, far_light = 0;  ///< LightTreeView::scale, far

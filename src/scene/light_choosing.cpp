@@ -53,6 +53,18 @@ void leave_half_to_places(std::vector<double>& power, uint32_t placed) {
     for (auto p = first_far; p != power.end(); ++p) *p *= near / far;
 }
 
+/// Whether a surface asks all lights. Sky, sun and lamp have noise of their own each, and one
+/// shadow ray for two of them adds that of the choice: with two lights, one of them without a
+/// place, both of weight, two rays are worth their time. Among lamps they are not
+/// (docs/decisions.md).
+bool asks_all(const std::vector<double>& power, uint32_t placed, LightChoosing choosing) {
+  constexpr double kLeastPower = 1. / 20;
+  if (choosing == LightChoosing::kAll) return power.size() > 1 && power.size() <= kMostAskedLights;
+  if (choosing != LightChoosing::kAuto || power.size() != 2 || placed == 2) return false;
+  const auto [least, most] = std::minmax(power[0], power[1]);
+  return least >= kLeastPower * (least + most);
+}
+
 }  // namespace
 
 void prepare_light_choice(std::vector<LightRow<Value>>& rows, LightChoosing choosing,
@@ -66,18 +78,23 @@ void prepare_light_choice(std::vector<LightRow<Value>>& rows, LightChoosing choo
   scene.first_environment = uint32_t(environments - rows.begin());
   const auto placed = uint32_t(far - rows.begin()), all = uint32_t(rows.size());
   scene.first_far_light = placed;
-  const uint32_t least = choosing == LightChoosing::kTree ? 2 : kTreeLights;
-  const bool may = choosing == LightChoosing::kAuto || choosing == LightChoosing::kTree;
-  const bool by_tree = may && placed >= least && make_tree(rows, placed, pool, scene);
-
-  for (uint32_t i = 0; i < placed && by_tree; ++i) rows[i].probability = 1;
-  const uint32_t first = by_tree ? placed : 0;
   std::vector<double> power;
-  for (uint32_t i = first; i < all; ++i)
+  for (const LightRow<Value>& row : rows)
     power.push_back(choosing == LightChoosing::kUniform
                         ? 1
-                        : light_power(rows[i], scene.colour, double(scene.radius)));
-  if (choosing == LightChoosing::kAuto && !by_tree) leave_half_to_places(power, placed);
+                        : light_power(row, scene.colour, double(scene.radius)));
+  for (LightRow<Value>& row : rows) row.probability = 1;
+  scene.every_light = asks_all(power, placed, choosing);
+  if (scene.every_light || all == 0) return;
+
+  // --light-choice all goes on as auto where there are too many.
+  const bool may = choosing != LightChoosing::kPower && choosing != LightChoosing::kUniform;
+  const uint32_t least = choosing == LightChoosing::kTree ? 2 : kTreeLights;
+  const bool by_tree = may && placed >= least && make_tree(rows, placed, pool, scene);
+  const uint32_t first = by_tree ? placed : 0;
+  if (first == all) return;
+  power.erase(power.begin(), power.begin() + first);
+  if (may && choosing != LightChoosing::kTree && !by_tree) leave_half_to_places(power, placed);
   const AliasTable table = make_alias_table(power);
   scene.light_choice.resize(all - first);
   for (uint32_t i = first; i < all; ++i) {

@@ -5,7 +5,9 @@
 //                     into the other
 //   hits, bin, order  row for row with the pair that is read; order lists its rows bin by bin
 //   chunk             a few hundred rows of one bin while they are shaded: stays in the L1 cache
-//   shadow            shadow rays of this turn
+//   shadow            shadow rays of this turn, a table for each group of lights: in each a path
+//   has
+//                     one at most
 //   sums              one row per slot, a slot per path under way (two with parts of the light
 //   wanted)
 //
@@ -33,7 +35,7 @@ struct Batch {
         instance(plan.instances ? batch_rows : 0),
         bin(batch_rows),
         order(batch_rows),
-        shadow(batch_rows),
+        shadow(std::max<size_t>(1, plan.light_groups.size())),
         occluded(batch_rows),
         sums(batch_rows * sums_per_path),
         slot_sample(batch_rows),
@@ -56,6 +58,7 @@ struct Batch {
         child_u(plan.split_levels ? kChunkRows : 0),
         splits(plan.split_levels),
         veils(plan.veils ? batch_rows : 0) {
+    for (Table<ShadowRay>& table : shadow) table.resize(batch_rows);
     for (int i = 0; i < 2; ++i) {
       rays[i].resize(batch_rows);
       paths[i].resize(batch_rows);
@@ -93,7 +96,7 @@ struct Batch {
   Table<Hit> hits;
   AlignedArray<uint32_t> instance;  ///< per hit, where the plan has instances
   AlignedArray<uint32_t> bin, order;
-  Table<ShadowRay> shadow;
+  std::vector<Table<ShadowRay>> shadow;
   AlignedArray<uint32_t> occluded;
   Table<SampleSum> sums;
   AlignedArray<uint32_t> slot_sample;  ///< sample index of the slot's path
@@ -117,7 +120,7 @@ struct Batch {
   Scratch scratch;
 
   size_t bytes() const {
-    size_t total = hits.bytes() + instance.bytes() + bin.bytes() + order.bytes() + shadow.bytes() +
+    size_t total = hits.bytes() + instance.bytes() + bin.bytes() + order.bytes() +
                    occluded.bytes() + sums.bytes() + slot_sample.bytes() + free_slots.bytes() +
                    finished.bytes() + camera.bytes() + film_u.bytes() + film_v.bytes() +
                    lens_u.bytes() + lens_v.bytes() + surfaces.bytes() + tangents.bytes() +
@@ -127,6 +130,7 @@ struct Batch {
     for (int i = 0; i < 2; ++i) total += rays[i].bytes() + paths[i].bytes();
     total += child_u.bytes() + veils.bytes();
     for (const SplitRows& level : splits) total += level.bytes();
+    for (const Table<ShadowRay>& table : shadow) total += table.bytes();
     return total;
   }
 };

@@ -67,6 +67,18 @@ std::string_view ways_text(const Plan& plan) {
   }
 }
 
+/// The kernels that sample lights, one for each group of them.
+std::string light_kernels(const Plan& plan) {
+  std::string text;
+  for (const LightGroup& group : plan.light_groups)
+    text += fmt::format(", {} ({})",
+                        plan.varying_emission ? "sample_varying_lights"
+                        : group.tree          ? "sample_tree_lights"
+                                              : "sample_lights",
+                        kLightNames[plan.varying_emission ? kAnyLights : group.kernel]);
+  return text;
+}
+
 std::string describe_material(const Plan& plan, const ShadePlan& material) {
   const std::string_view name = material_traits(material.material).name;
   if (material.splits)
@@ -81,12 +93,7 @@ std::string describe_material(const Plan& plan, const ShadePlan& material) {
   if (material.draw_roulette) numbers += " roulette";
   std::string what;
   if (!numbers.empty()) what += ", draw" + numbers;
-  if (material.sample_lights)
-    what += fmt::format(", {} ({})",
-                        plan.varying_emission ? "sample_varying_lights"
-                        : plan.light_tree     ? "sample_tree_lights"
-                                              : "sample_lights",
-                        kLightNames[plan.varying_emission ? kAnyLights : plan.light_kernel]);
+  if (material.sample_lights) what += light_kernels(plan);
   return what + fmt::format(", shade {}", name);
 }
 

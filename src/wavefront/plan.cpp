@@ -19,11 +19,13 @@ void need(bool present, const KernelTable& kernels, std::string_view kernel) {
   if (!present) throw std::logic_error(fmt::format("{}: no kernel {}", kernels.isa, kernel));
 }
 
-void need_material(const ShadePlan& plan, const KernelTable& k) {
+/// groups: of lights.
+void need_material(const ShadePlan& plan, size_t groups, const KernelTable& k) {
   if (plan.splits)
     need(k.split[uint32_t(plan.material)], k, "split");
   else
     need(k.shade[uint32_t(plan.material)], k, "shade");
+  if (plan.sample_lights && groups > 1) need(k.connect[uint32_t(plan.material)], k, "connect");
   if (plan.coats) need(k.coats && k.take_coats && k.weigh_child, k, "coats");
   if (plan.program != kNone) need(k.spread_parameters && k.make_derivatives, k, "textures");
 }
@@ -52,10 +54,11 @@ void need_kernels(const Plan& plan) {
   }
   need(k.classify_hits, k, "classify_hits");
   if (plan.lights) {
-    if (plan.light_tree)
-      need(k.sample_tree_lights[plan.light_kernel], k, "sample_tree_lights");
-    else
-      need(k.sample_lights[plan.light_kernel], k, "sample_lights");
+    for (const LightGroup& group : plan.light_groups)
+      if (group.tree)
+        need(k.sample_tree_lights[group.kernel], k, "sample_tree_lights");
+      else
+        need(k.sample_lights[group.kernel], k, "sample_lights");
     need(k.add_unoccluded, k, "add_unoccluded");
   }
   if (plan.environment)
@@ -72,7 +75,7 @@ void need_kernels(const Plan& plan) {
                ? bool(k.make_instance_tangents[bin.bin.geometry == GeometryKind::kTriangleVertex])
                : bool(k.make_tangents[uint32_t(bin.bin.geometry)]),
            k, "make_tangents");
-    need_material(bin, k);
+    need_material(bin, plan.light_groups.size(), k);
     if (bin.emission)
       need(plan.light_tree ? k.add_tree_emission : k.add_emission, k, "add_emission");
     if (bin.bin.emission_varies())
@@ -82,7 +85,7 @@ void need_kernels(const Plan& plan) {
   if (plan.varying_emission)
     need(k.sample_varying_lights[plan.light_tree] && k.make_light_points, k,
          "sample_varying_lights");
-  for (const ShadePlan& child : plan.children) need_material(child, k);
+  for (const ShadePlan& child : plan.children) need_material(child, plan.light_groups.size(), k);
   if (plan.split_levels) need(k.choose_child && k.take_rows, k, "choose_child");
   if (plan.veils)
     need(k.start_veils && k.share_weight && k.pass_veils && k.end_veils, k, "start_veils");
@@ -104,14 +107,26 @@ bool has_unmet_lights(const Scene& scene) {
 }
 
 /// Whether one number can choose a light and a place on it, so that a pixel's samples spread evenly
-/// over all lights together: what a rare light leaves of its 24 bits must be a fine enough grid.
-bool lights_share_number(const Scene& scene) {
+/// over all lights of the group: what a rare light leaves of its 24 bits must be a fine enough
+/// grid.
+bool lights_share_number(const Scene& scene, const LightGroup& group) {
   constexpr float kRarest = 1.f / 64;
-  if (scene.light_tree.nodes.size() > 0 || scene.lights.size() < 2) return false;
-  for (uint32_t i = 0; i < scene.lights.size(); ++i)
+  if (group.tree || group.rows.end - group.rows.first < 2) return false;
+  for (uint32_t i = group.rows.first; i < group.rows.end; ++i)
     if (scene.lights.row(i).probability > 0 && scene.lights.row(i).probability < kRarest)
       return false;
   return true;
+}
+
+LightGroup plan_group(const Scene& scene, RowRange rows) {
+  const bool tree = scene.light_tree.nodes.size() > 0;
+  uint32_t kinds = 0, kernel = kPlainLights;
+  for (uint32_t i = rows.first; i < rows.end; ++i) kinds |= 1u << scene.lights.row(i).kind;
+  if (kinds >> kPlainLightKinds)
+    kernel = kAnyLights;
+  else if (std::has_single_bit(kinds) && (!tree || kinds == 1u << uint32_t(LightKind::kTriangle)))
+    kernel = uint32_t(std::countr_zero(kinds));
+  return {rows, kinds, kernel, tree};
 }
 
 /// The plan of a material, with those of what it is made of in plan.children.
@@ -138,7 +153,8 @@ ShadePlan plan_material(const Scene& scene, const MaterialForm& form, bool roule
   out.veil = traits.veil;
   out.solid = !traits.veil && !traits.see_through;
   out.sample_lights = plan.lights && !traits.delta && !traits.see_through;
-  out.draw_choice = out.sample_lights && scene.lights.size() > 1 && !plan.light_by_place;
+  out.draw_choice = out.sample_lights && !plan.light_by_place &&
+                    plan.light_groups[0].rows.end - plan.light_groups[0].rows.first > 1;
   out.all_around = traits.all_around;
   out.draw_lobe = traits.needs_lobe;
   out.draw_direction = traits.needs_direction;
@@ -147,6 +163,15 @@ ShadePlan plan_material(const Scene& scene, const MaterialForm& form, bool roule
 }
 
 }  // namespace
+
+SceneView light_view(const SceneView& scene, const LightGroup& group) {
+  SceneView view = scene;
+  const Rows<LightRow>& all = scene.lights.rows;
+  view.lights.rows = {all.words + size_t(group.rows.first) * row_words<LightRow>,
+                      group.rows.end - group.rows.first};
+  view.lights.kinds = group.kinds;
+  return view;
+}
 
 Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions& options) {
   Plan plan;
@@ -180,15 +205,11 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
   // Light is sampled at vertices below max_depth only.
   plan.lights = scene.lights.size() > 0 && options.max_depth > 0 &&
                 (plan.light_sampling != LightSampling::kBsdf || has_unmet_lights(scene));
-  plan.light_kernel = scene.light_kinds >> kPlainLightKinds ? kAnyLights
-                      : std::popcount(scene.light_kinds) == 1
-                          ? uint32_t(std::countr_zero(scene.light_kinds))
-                          : kPlainLights;
   plan.light_tree = scene.light_tree.nodes.size() > 0;
-  plan.light_by_place = lights_share_number(scene);
-  if (plan.light_tree && plan.light_kernel < kPlainLights &&
-      plan.light_kernel != uint32_t(LightKind::kTriangle))
-    plan.light_kernel = kPlainLights;
+  const uint32_t lights = scene.lights.size(), in_group = scene.every_light ? 1 : lights;
+  for (uint32_t i = 0; plan.lights && i < lights; i += in_group)
+    plan.light_groups.push_back(plan_group(scene, {i, i + in_group}));
+  plan.light_by_place = plan.lights && lights_share_number(scene, plan.light_groups[0]);
   plan.varying_emission = plan.lights && scene.emission.size() > 0;
   plan.environment = scene.first_environment < scene.lights.size();
   plan.transport.hide_environment = !scene.show_environment;

@@ -48,6 +48,16 @@ struct BinPlan : ShadePlan {
   bool emission = false;  ///< rows have a light row: add_emission runs
 };
 
+/// Lights of which a surface samples one: all of the scene, or one of them (Scene::every_light).
+struct LightGroup {
+  RowRange rows;
+  uint32_t kinds;   ///< bits by LightKind
+  uint32_t kernel;  ///< index into KernelTable::sample_lights or sample_tree_lights
+  bool tree;        ///< the tree chooses
+};
+/// The scene as sample_lights sees it for a group: with its lights alone.
+SceneView light_view(const SceneView& scene, const LightGroup& group);
+
 struct Plan {
   const KernelTable* kernels = nullptr;
   SamplerKind sampler = SamplerKind::kSobol;
@@ -70,10 +80,11 @@ struct Plan {
   bool instance_mask = false;     ///< as shadow_mask, of shared objects
   bool shadow_mask = false;       ///< some triangle is see-through: the masked any-hit kernel
   bool veils = false;             ///< some surface lets a part of the light pass: shadow rays go on
-  uint32_t light_kernel = 0;      ///< index into KernelTable::sample_lights or sample_tree_lights
   bool light_tree = false;        ///< lights are chosen by the tree over them
   bool light_by_place = false;    ///< the number of a light's place chooses the light, too
   bool lights = false;
+  std::vector<LightGroup> light_groups;  ///< at least one where there are lights
+  bool far_by_tree = false;       ///< whether a light without a place is chosen, the tree decides
   bool varying_emission = false;  ///< some light does not shine evenly: light samples are weighed
   bool environment = false;       ///< lights that rays find which leave the scene
 };

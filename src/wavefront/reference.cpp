@@ -108,19 +108,39 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
       return hit->position + (glm::dot(ng, wi) > 0 ? 1.0 : -1.0) * hit->offset * ng;
     };
 
-    if (plan.lights && !material_traits(material).delta) {
-      const auto [u, v] = random(Dimension::kLight);
-      const Receiver receiver{hit->position, ng, material_traits(material).all_around};
-      std::optional<float> choice;
-      if (!plan.light_by_place) choice = random(Dimension::kChoice).first;
-      const LightPoint light = sample_light(scene, receiver, choice, u, v);
+    // What a light sample brings; `number` is that of its group.
+    const auto connect = [&](const LightPoint& light, uint32_t number) {
       const Vec wi = axes.to_local(light.wi);
-      if (!black(light.arriving) && glm::dot(ng, light.wi) * wi.z > 0) {
-        const double weight = weight_of_sample(plan.light_sampling, light.pdf, bsdf.pdf(wi));
-        const Vec add =
-            throughput * bsdf.evaluate(wi) * coat(wi) * std::fabs(wi.z) * light.arriving * weight;
-        if (!black(add) && !occluded(scene, leave(light.wi), light.to))
-          radiance += add * through_veils(scene, leave(light.wi), light.to);
+      if (black(light.arriving) || !(glm::dot(ng, light.wi) * wi.z > 0)) return;
+      const double weight = weight_of_sample(plan.light_sampling, light.pdf, bsdf.pdf(wi));
+      Vec add =
+          throughput * bsdf.evaluate(wi) * coat(wi) * std::fabs(wi.z) * light.arriving * weight;
+      if (black(add)) return;
+      const double most = std::max({std::fabs(add.x), std::fabs(add.y), std::fabs(add.z)});
+      if (const auto bound = double(options.shadow_bound); most < bound) {
+        const double chance = std::max(most / bound, double(kLeastShadowChance));
+        const float played =
+            random_pair(SamplerKind::kIndependent, plan.draw_key(),
+                        of_light(Dimension::kShadow, number), pixel, sample, crossed << 16 | vertex)
+                .first;
+        if (double(played) >= chance) return;
+        add /= chance;
+      }
+      if (!occluded(scene, leave(light.wi), light.to))
+        radiance += add * through_veils(scene, leave(light.wi), light.to);
+    };
+    if (plan.lights && !material_traits(material).delta) {
+      const Receiver receiver{hit->position, ng, material_traits(material).all_around};
+      for (uint32_t i = 0; i < plan.light_groups.size(); ++i) {
+        const RowRange& rows = plan.light_groups[i].rows;
+        const auto [u, v] = random(of_light(Dimension::kLight, i));
+        if (rows.end - rows.first == 1) {
+          connect(sample_light(scene, receiver, {rows.first, 1, 1}, double(u), double(v)), i);
+          continue;
+        }
+        std::optional<float> choice;
+        if (!plan.light_by_place) choice = random(Dimension::kChoice).first;
+        connect(sample_light(scene, receiver, choice, u, v), i);
       }
     }
 

@@ -252,9 +252,15 @@ Vec pick_environment(const Scene& scene, const LightRow<Value>& row, double u, d
 
 LightPoint sample_light(const Scene& scene, const Receiver& lit, std::optional<float> choice,
                         float number_u, float number_v) {
+  const LightChance chosen = choose_light(scene, lit, choice.value_or(number_u));
+  return sample_light(scene, lit, chosen, double(choice ? number_u : chosen.left),
+                      double(number_v));
+}
+
+LightPoint sample_light(const Scene& scene, const Receiver& lit, const LightChance& choice,
+                        double u, double v) {
   const Vec& receiver = lit.position;
-  const auto [chosen, chance, nominal, left] = choose_light(scene, lit, choice.value_or(number_u));
-  const auto u = double(choice ? number_u : left), v = double(number_v);
+  const auto [chosen, chance, nominal, left] = choice;
   const LightRow<Value> row = scene.lights.row(chosen);
   LightPoint pick;
   double inverse_pdf = 0;

@@ -171,6 +171,9 @@ inline double nominal_chance(const Scene& scene, const Vec& receiver, uint32_t l
 /// Without a number for the choice, u chooses, and what is left of it is for the place.
 LightPoint sample_light(const Scene& scene, const Receiver& receiver, std::optional<float> choice,
                         float u, float v);
+/// A point of that light; LightChance::left is not read.
+LightPoint sample_light(const Scene& scene, const Receiver& receiver, const LightChance& chosen,
+                        double u, double v);
 /// The density of sample_light for the point `at` of its light from `receiver`, by nominal chance.
 double light_pdf(const Scene& scene, const Vec& receiver, const Point& at, double cos);
 /// Of the light's row.

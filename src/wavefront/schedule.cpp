@@ -15,7 +15,11 @@ Worker::Worker(const Scene& scene, const Plan& plan, uint32_t batch_rows, bool t
       film_(film),
       batch_(scene, plan, batch_rows, FeatureRecorder::sums_per_path(features)),
       features_(scene, features, batch_rows),
-      clock_(trace) {}
+      clock_(trace),
+      further_shadow_(plan.light_groups.empty() ? 0 : plan.light_groups.size() - 1) {
+  for (const LightGroup& group : plan.light_groups)
+    light_views_.push_back(light_view(view_, group));
+}
 
 void Worker::count(Stage stage, uint64_t rows, LaneCount lanes) {
   StageCount& c = counted_.stats.stages[uint32_t(stage)];
@@ -68,17 +72,18 @@ void Worker::turn() {
   out_ = {};
   out_.rays = batch_.rays[next].columns();
   out_.paths = batch_.paths[next].columns();
-  out_.shadow_rays = batch_.shadow.columns();
+  out_.shadow_rays = batch_.shadow.back().columns();
   out_.finished = batch_.finished.data();
   intersect();
   sort();
   if (plan_.environment) environment();
   shade();
-  if (out_.shadow_count) shadow();
+  for (uint32_t i = 0; i < further_shadow_.size(); ++i)
+    shadow(batch_.shadow[i].view(), std::exchange(further_shadow_[i], 0));
+  shadow(batch_.shadow.back().view(), out_.shadow_count);
   accumulate();
   clock_.enter(Stage::kSchedule);
   counted_.stats.bounce_rays += out_.path_count;
-  counted_.stats.shadow_rays += out_.shadow_count;
   current_ = next;
   count_ = out_.path_count;
   fresh_ = 0;
@@ -279,7 +284,6 @@ void Worker::shade_rows(const ShadePlan& plan, const ChunkRows& rows) {
   Randoms<ConstColumn> drawn{};
   clock_.enter(Stage::kDraw, n);
   if (plan.sample_lights) {
-    draw(Dimension::kLight, rows.paths, randoms.light_u, randoms.light_v, n);
     drawn.light_u = randoms.light_u;
     drawn.light_v = randoms.light_v;
   }
@@ -302,36 +306,61 @@ void Worker::shade_rows(const ShadePlan& plan, const ChunkRows& rows) {
   }
   count(Stage::kDraw, n);
 
-  LightSample<ConstColumn> lights{};
+  ShadeInput in{rows.surfaces, rows.paths, drawn, {}, parameters, rows.tangents, rows.coats};
   if (plan.sample_lights) {
-    clock_.enter(Stage::kLightSample, n);
-    if (plan_.varying_emission) {
-      kernels_.sample_varying_lights[plan_.light_tree](view_, rows.surfaces, drawn, plan.all_around,
-                                                       batch_.lights.columns(),
-                                                       batch_.emission.lights(), n);
-      batch_.emission.scale(view_, batch_.lights.columns(), n);
-    } else if (plan_.light_tree)
-      kernels_.sample_tree_lights[plan_.light_kernel](view_, rows.surfaces, drawn, plan.all_around,
-                                                      batch_.lights.columns(), n);
-    else
-      kernels_.sample_lights[plan_.light_kernel](view_, rows.surfaces, drawn,
-                                                 batch_.lights.columns(), n);
-    if (plan_.light_sampling == LightSampling::kLights)
-      count_in_full(batch_.lights.columns(), n);
-    else if (plan_.light_sampling == LightSampling::kBsdf)
-      empty_met_lights(batch_.lights.columns(), n);
-    lights = batch_.lights.view();
-    count(Stage::kLightSample, n);
+    for (uint32_t group = 0; group < further_shadow_.size(); ++group) {
+      in.lights = sample_lights(plan, rows, drawn, group);
+      in.light = group;
+      clock_.enter(Stage::kShade, n);
+      ShadeOutput out;
+      out.shadow_rays = batch_.shadow[group].columns();
+      out.shadow_count = further_shadow_[group];
+      kernels_.connect[uint32_t(plan.material)](in, plan_.transport, out, counted_.drops, n);
+      further_shadow_[group] = out.shadow_count;
+      count(Stage::kShade, n);
+    }
+    in.light = uint32_t(further_shadow_.size());
+    in.lights = sample_lights(plan, rows, drawn, in.light);
   }
 
   clock_.enter(Stage::kShade, n);
   const uint32_t first_path = out_.path_count;
-  kernels_.shade[uint32_t(plan.material)](
-      {rows.surfaces, rows.paths, drawn, lights, parameters, rows.tangents, rows.coats},
-      plan_.transport, out_, counted_.drops, n);
+  kernels_.shade[uint32_t(plan.material)](in, plan_.transport, out_, counted_.drops, n);
   if (features_.active())
     features_.record_albedo(out_.paths, batch_.sums.columns(), first_path, out_.path_count);
   count(Stage::kShade, n);
+}
+
+LightSample<ConstColumn> Worker::sample_lights(const ShadePlan& plan, const ChunkRows& rows,
+                                               const Randoms<ConstColumn>& drawn, uint32_t number) {
+  const uint32_t n = rows.n;
+  const LightGroup& group = plan_.light_groups[number];
+  const SceneView& view = light_views_[number];
+  const LightSample<Column>& samples = batch_.lights.columns();
+  clock_.enter(Stage::kDraw, n);
+  draw(of_light(Dimension::kLight, number), rows.paths, batch_.randoms.columns().light_u,
+       batch_.randoms.columns().light_v, n);
+  count(Stage::kDraw, n);
+  clock_.enter(Stage::kLightSample, n);
+  if (plan_.varying_emission) {
+    uint32_t* const light = batch_.emission.lights();
+    kernels_.sample_varying_lights[group.tree](view, rows.surfaces, drawn, plan.all_around, samples,
+                                               light, n);
+    // The kernel counts from the group's first light: a group behind the first is one light.
+    if (number > 0) std::fill_n(light, n, group.rows.first);
+    batch_.emission.scale(view_, samples, n);
+  } else if (group.tree) {
+    kernels_.sample_tree_lights[group.kernel](view, rows.surfaces, drawn, plan.all_around, samples,
+                                              n);
+  } else {
+    kernels_.sample_lights[group.kernel](view, rows.surfaces, drawn, samples, n);
+  }
+  if (plan_.light_sampling == LightSampling::kLights)
+    count_in_full(samples, n);
+  else if (plan_.light_sampling == LightSampling::kBsdf)
+    empty_met_lights(samples, n);
+  count(Stage::kLightSample, n);
+  return batch_.lights.view();
 }
 
 void Worker::shade_split(const ShadePlan& plan, const ChunkRows& rows, const float* u,
@@ -404,10 +433,10 @@ void Worker::shade_split(const ShadePlan& plan, const ChunkRows& rows, const flo
   }
 }
 
-void Worker::shadow() {
-  const uint32_t n = out_.shadow_count;
+void Worker::shadow(const ShadowRay<ConstColumn>& rays, uint32_t n) {
+  if (!n) return;
   clock_.enter(Stage::kIntersectShadow, n);
-  const ShadowRay<ConstColumn> rays = batch_.shadow.view();
+  counted_.stats.shadow_rays += n;
   uint32_t* occluded = batch_.occluded.data();
   LaneCount lanes{n, (n + kernels_.lanes - 1) / kernels_.lanes};
   if (plan_.triangles)
@@ -432,17 +461,20 @@ void Worker::shadow() {
     lanes.steps += inside.steps;
   }
   count(Stage::kIntersectShadow, n, lanes);
-  if (plan_.veils) walk_veils(n);
+  if (plan_.veils) {
+    walk_veils(rays, n);
+    return;
+  }
+  clock_.enter(Stage::kAccumulate, n);
+  kernels_.add_unoccluded(rays, occluded, batch_.sums.columns(), n);
+  count(Stage::kAccumulate, n);
 }
 
 void Worker::accumulate() {
   // Paths of the ended bin, then those that ended while shading: their last light counts too, so
   // all of them go to the film after it has been added.
   const uint32_t ended = bin_begin_[1];
-  clock_.enter(Stage::kAccumulate, out_.shadow_count);
-  if (out_.shadow_count && !plan_.veils)
-    kernels_.add_unoccluded(batch_.shadow.view(), batch_.occluded.data(), batch_.sums.columns(),
-                            out_.shadow_count);
+  clock_.enter(Stage::kAccumulate);
   const uint32_t* slot = batch_.paths[current_].columns().slot;
   for (uint32_t i = 0; i < ended; ++i) out_.finished[out_.finished_count++] = slot[batch_.order[i]];
   // Slots are in no order: the film's pixels are asked for a few paths ahead.
@@ -453,7 +485,6 @@ void Worker::accumulate() {
       __builtin_prefetch(film_.data() + pixel[out_.finished[i + kAhead]], 1);
     flush(out_.finished[i]);
   }
-  count(Stage::kAccumulate, out_.shadow_count);
   counted_.stats.paths += out_.finished_count;
 }
 

@@ -106,12 +106,16 @@ class Worker {
   void shade_rows(const ShadePlan& plan, const ChunkRows& rows);
   /// u: per row, decides between the children.
   void shade_split(const ShadePlan& plan, const ChunkRows& rows, const float* u, uint32_t level);
+  /// Samples a light of a group for each row.
+  LightSample<ConstColumn> sample_lights(const ShadePlan& plan, const ChunkRows& rows,
+                                         const Randoms<ConstColumn>& drawn, uint32_t number);
   void draw(Dimension dimension, const PathState<ConstColumn>& paths, float* first, float* second,
             uint32_t n);
-  void shadow();
+  /// Tests shadow rays, and adds those that are free to their samples.
+  void shadow(const ShadowRay<ConstColumn>& rays, uint32_t n);
   // veils.cpp
   /// Adds what reaches its light of the shadow rays that are free so far.
-  void walk_veils(uint32_t shadow_rays);
+  void walk_veils(const ShadowRay<ConstColumn>& rays, uint32_t shadow_rays);
   void intersect_veils(uint32_t side, uint32_t n);
   uint32_t pass_veil(const BinPlan& bin, uint32_t side, uint32_t begin, uint32_t end,
                      uint32_t count);
@@ -126,6 +130,7 @@ class Worker {
 
   const Scene& scene_;
   const SceneView view_;
+  std::vector<SceneView> light_views_;  ///< of each group of lights
   const Plan& plan_;
   const KernelTable& kernels_;
   Film& film_;
@@ -137,7 +142,8 @@ class Worker {
   uint32_t count_ = 0;    ///< rows in it
   uint32_t fresh_ = 0;    ///< the last of them: camera rays, 64 in a row close together
   uint32_t bin_begin_[kMaxBins + 1] = {};
-  ShadeOutput out_;
+  ShadeOutput out_;                       ///< shadow rays: of the last light
+  std::vector<uint32_t> further_shadow_;  ///< shadow rays of each light before the last
 };
 
 }  // namespace yat

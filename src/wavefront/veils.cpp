@@ -7,11 +7,11 @@
 
 namespace yat {
 
-void Worker::walk_veils(uint32_t shadow_rays) {
+void Worker::walk_veils(const ShadowRay<ConstColumn>& rays, uint32_t shadow_rays) {
   VeilRows& v = batch_.veils;
   uint32_t side = 0;
-  uint32_t n = kernels_.start_veils(batch_.shadow.view(), batch_.occluded.data(),
-                                    v.rays[0].columns(), v.paths[0].columns(), shadow_rays);
+  uint32_t n = kernels_.start_veils(rays, batch_.occluded.data(), v.rays[0].columns(),
+                                    v.paths[0].columns(), shadow_rays);
   // As many crossings as a path may have.
   for (uint32_t crossed = 0; n && crossed < 0xffffu; ++crossed, side ^= 1) {
     intersect_veils(side, n);
