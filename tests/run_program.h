@@ -2,6 +2,7 @@
 // Runs a program as a person would and keeps what it said.
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace yat {
@@ -32,6 +34,16 @@ inline void write_whole(const std::filesystem::path& path, std::string_view text
   std::ofstream file(path, std::ios::binary);
   file << text;
   if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
+}
+
+/// An empty folder for the test that runs, beside those of the other tests of its group.
+inline std::filesystem::path empty_folder(std::string_view group) {
+  const std::filesystem::path folder =
+      std::filesystem::path(YAT_TEST_OUTPUT_DIR) / group /
+      testing::UnitTest::GetInstance()->current_test_info()->name();
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
 }
 
 /// A program under way, its standard output and error going to files in `folder`, which is also its

@@ -202,12 +202,7 @@ TEST(Accuracy, WhatLiesOutsideCountsAsItDoesWhenRepeated) {
 
 class AccuracyProgram : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder = std::filesystem::path(YAT_TEST_OUTPUT_DIR) / "accuracy" / test->name();
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-  }
+  void SetUp() override { folder = empty_folder("accuracy"); }
   ProgramResult run(std::vector<std::string> options) const {
     options.insert(options.begin(), std::string(YAT_BENCH_DIR) + "/bench_accuracy");
     return run_program(options, folder);

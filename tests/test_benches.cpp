@@ -16,12 +16,7 @@ using Json = nlohmann::json;
 
 class Benches : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder = std::filesystem::path(YAT_TEST_OUTPUT_DIR) / "benches" / test->name();
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-  }
+  void SetUp() override { folder = empty_folder("benches"); }
   ProgramResult bench(const std::string& name, std::vector<std::string> options) const {
     options.insert(options.begin(), std::string(YAT_BENCH_DIR) + "/" + name);
     return run_program(options, folder);

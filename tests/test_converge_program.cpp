@@ -32,10 +32,7 @@ WorldEnd
 class Converge : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(YAT_TEST_OUTPUT_DIR) / "converge_program" /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+    folder_ = empty_folder("converge_program");
     write_whole(folder_ / "scene.lxs", kScene);
   }
   std::vector<std::string> command(std::vector<std::string> arguments) const {

@@ -35,10 +35,7 @@ WorldEnd
 class Program : public testing::Test {
  protected:
   void SetUp() override {
-    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(YAT_TEST_OUTPUT_DIR) / "program" / test->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+    folder_ = empty_folder("program");
     write_whole(folder_ / "scene.lxs", kScene);
   }
   std::vector<std::string> command(std::vector<std::string> arguments) const {

@@ -28,10 +28,7 @@ WorldEnd
 class YartProgram : public testing::Test {
  protected:
   void SetUp() override {
-    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(YAT_TEST_OUTPUT_DIR) / "yart_program" / test->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+    folder_ = empty_folder("yart_program");
     write_whole(folder_ / "scene.lxs", kScene);
   }
   ProgramResult yat(std::vector<std::string> arguments) const {
