@@ -16,26 +16,34 @@ FilmSettings window(uint32_t x0, uint32_t x1, uint32_t y0, uint32_t y1) {
   return film;
 }
 
+/// How often each path, a pixel and a sample of it, was given out.
+using Paths = std::map<std::pair<uint32_t, uint32_t>, int>;
+
+/// Adds all paths of the list, which are taken at most `most` at a time.
+void take_all(WorkList& list, uint32_t most, Paths& seen) {
+  std::vector<uint32_t> pixel(most), sample(most);
+  while (const WorkUnit* unit = list.claim()) {
+    WorkCursor cursor;
+    cursor.start(*unit);
+    uint64_t paths = 0;
+    while (!cursor.empty()) {
+      const uint32_t n = cursor.take(most, pixel.data(), sample.data());
+      ASSERT_GT(n, 0u);
+      paths += n;
+      for (uint32_t i = 0; i < n; ++i) ++seen[{pixel[i], sample[i]}];
+    }
+    ASSERT_EQ(paths, unit->paths());
+  }
+}
+
 TEST(WorkList, EveryPathOnceWhateverTheCut) {
   const FilmSettings film = window(3, 40, 5, 22);
   for (const uint32_t tile : {0u, 1u, 7u, 8u, 64u, 100000u})
     for (const uint32_t workers : {1u, 2u, 7u})
       for (const uint32_t take : {1u, 13u, 5000u}) {
         WorkList list(film, 2, 7, tile, workers);
-        std::map<std::pair<uint32_t, uint32_t>, int> seen;
-        std::vector<uint32_t> pixel(take), sample(take);
-        while (const WorkUnit* unit = list.claim()) {
-          WorkCursor cursor;
-          cursor.start(*unit);
-          uint64_t paths = 0;
-          while (!cursor.empty()) {
-            const uint32_t n = cursor.take(take, pixel.data(), sample.data());
-            ASSERT_GT(n, 0u);
-            paths += n;
-            for (uint32_t i = 0; i < n; ++i) ++seen[{pixel[i], sample[i]}];
-          }
-          ASSERT_EQ(paths, unit->paths());
-        }
+        Paths seen;
+        ASSERT_NO_FATAL_FAILURE(take_all(list, take, seen));
         ASSERT_EQ(seen.size(), 37u * 17 * 5) << tile << ' ' << workers << ' ' << take;
         for (const auto& [path, times] : seen) {
           ASSERT_EQ(times, 1);
@@ -60,20 +68,8 @@ TEST(WorkList, AMapGivesEveryBlockItsOwnSamples) {
       for (const uint32_t take : {1u, 13u, 5000u}) {
         WorkList list(film, map, tile, workers);
         EXPECT_FALSE(list.shares_pixels());
-        std::map<std::pair<uint32_t, uint32_t>, int> seen;
-        std::vector<uint32_t> pixel(take), sample(take);
-        while (const WorkUnit* unit = list.claim()) {
-          WorkCursor cursor;
-          cursor.start(*unit);
-          uint64_t paths = 0;
-          while (!cursor.empty()) {
-            const uint32_t n = cursor.take(take, pixel.data(), sample.data());
-            ASSERT_GT(n, 0u);
-            paths += n;
-            for (uint32_t i = 0; i < n; ++i) ++seen[{pixel[i], sample[i]}];
-          }
-          ASSERT_EQ(paths, unit->paths());
-        }
+        Paths seen;
+        ASSERT_NO_FATAL_FAILURE(take_all(list, take, seen));
         ASSERT_EQ(seen.size(), all);
         for (const auto& [path, times] : seen) {
           ASSERT_EQ(times, 1);
