@@ -66,9 +66,7 @@ inline std::string instance_text(const std::string& name, const std::string& pla
 /// Compiles with shared objects or with copies; warnings fail the test.
 inline Scene compile_instances(const std::string& text, const KernelTable& kernels,
                                InstanceMode mode, LightChoosing choosing = LightChoosing::kAuto) {
-  Diagnostics diagnostics([](Severity severity, std::string_view line) {
-    if (severity != Severity::kNote) ADD_FAILURE() << line;
-  });
+  Diagnostics diagnostics(fail_at_warnings);
   CompileOptions options;
   options.block_width = kernels.lanes;
   options.instances = mode;

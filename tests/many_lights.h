@@ -73,9 +73,7 @@ inline std::string lamp_room_text(uint32_t width, uint32_t height, uint32_t lamp
 /// Compiles with a given choice of lights. Warnings fail the test.
 inline Scene compile_lamps(const std::string& text, const KernelTable& kernels,
                            LightChoosing choosing, uint32_t threads = 1) {
-  Diagnostics diagnostics([](Severity severity, std::string_view line) {
-    if (severity != Severity::kNote) ADD_FAILURE() << line;
-  });
+  Diagnostics diagnostics(fail_at_warnings);
   CompileOptions options;
   options.block_width = kernels.lanes;
   options.light_choice = choosing;

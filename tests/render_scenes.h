@@ -16,7 +16,12 @@
 
 namespace yat {
 
-/// Compiles a scene for the kernels that will run. Warnings fail the test: these scenes are ours.
+/// A sink of diagnostics for scenes that nothing is to be said about.
+inline void fail_at_warnings(Severity severity, std::string_view line) {
+  if (severity != Severity::kNote) ADD_FAILURE() << line;
+}
+
+/// Compiles a scene for the kernels that will run.
 inline Scene compile_description(const Description& description, const KernelTable& kernels,
                                  Diagnostics& diagnostics, uint32_t width = 0, uint32_t height = 0,
                                  ColourMode colour = ColourMode::kBands, bool keep_uv = false) {
@@ -30,11 +35,10 @@ inline Scene compile_description(const Description& description, const KernelTab
   ThreadPool pool(1);
   return compile_scene(description, options, pool, diagnostics);
 }
+/// Warnings fail the test.
 inline Scene compile_text(const std::string& text, const KernelTable& kernels,
                           ColourMode colour = ColourMode::kBands, bool keep_uv = false) {
-  Diagnostics diagnostics([](Severity severity, std::string_view line) {
-    if (severity != Severity::kNote) ADD_FAILURE() << line;
-  });
+  Diagnostics diagnostics(fail_at_warnings);
   return compile_description(parse_scene(text, "test.lxs", ".", diagnostics), kernels, diagnostics,
                              0, 0, colour, keep_uv);
 }

@@ -169,11 +169,10 @@ constexpr std::string_view kView =
 Scene compile(const std::string& world, Dialect dialect, CompileOptions options = {},
               std::vector<std::string>* said = nullptr) {
   Diagnostics diagnostics([&](Severity severity, std::string_view line) {
-    if (severity == Severity::kNote) return;
-    if (said)
+    if (!said)
+      fail_at_warnings(severity, line);
+    else if (severity != Severity::kNote)
       said->emplace_back(line);
-    else
-      ADD_FAILURE() << line;
   });
   options.colour = ColourMode::kRgb;
   ThreadPool pool(1);

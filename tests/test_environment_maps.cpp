@@ -157,9 +157,7 @@ TEST_P(LightMaps, YartsPictureIsHalfATurnFromLuxRenders) {
       image_text(numbered_picture("numbered.ppm", 16, 8),
                  "\"color L\" [3 2 1] \"float gain\" [5] \"float gamma\" [2.2]");
   const auto by_yart = [&](const std::string& light) {
-    Diagnostics diagnostics([](Severity severity, std::string_view line) {
-      if (severity != Severity::kNote) ADD_FAILURE() << line;
-    });
+    Diagnostics diagnostics(fail_at_warnings);
     return compile_description(
         parse_scene(view_text("0 -3 0", "0 0 0", 50, 8, 8) + light + "WorldEnd\n", "test.lxs", ".",
                     diagnostics, false, Dialect::kYart),

@@ -83,9 +83,7 @@ TEST_P(ShapeMaterials, TexturesByUvAgreeWithTheReference) {
 TEST_P(ShapeMaterials, ImagesAgreeWithTheReference) {
   write_image("shape_materials", "noise.png", 64, 32, 3, OIIO::TypeDesc::UINT8,
               [](int x, int y, int c) { return float((x * 37 + y * 91 + c * 53) % 200) / 255; });
-  Diagnostics diagnostics([](Severity severity, std::string_view line) {
-    if (severity != Severity::kNote) ADD_FAILURE() << line;
-  });
+  Diagnostics diagnostics(fail_at_warnings);
   const std::string text = room(
       "Texture \"image\" \"color\" \"imagemap\" \"string filename\" [\"noise.png\"] \"string "
       "filtertype\" [\"mipmap_trilinear\"] \"float uscale\" [2]\nMaterial \"matte\" \"texture "

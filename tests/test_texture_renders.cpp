@@ -21,9 +21,7 @@ std::string folder() {
 
 Scene compile_in_folder(const std::string& text, const KernelTable& kernels,
                         ColourMode colour = ColourMode::kBands) {
-  Diagnostics diagnostics([](Severity severity, std::string_view line) {
-    if (severity != Severity::kNote) ADD_FAILURE() << line;
-  });
+  Diagnostics diagnostics(fail_at_warnings);
   return compile_description(parse_scene(text, "test.lxs", folder(), diagnostics), kernels,
                              diagnostics, 0, 0, colour);
 }

@@ -193,9 +193,7 @@ TEST_P(VaryingEmission, InstancesShineAsTheyArePlaced) {
                                        colour_model(ColourMode::kRgb).light) +
                               quadrature(kFloorPoint, {-.3, 0, 2}, true, slope);
   for (const InstanceMode mode : {InstanceMode::kShare, InstanceMode::kCopy}) {
-    Diagnostics diagnostics([](Severity severity, std::string_view line) {
-      if (severity != Severity::kNote) ADD_FAILURE() << line;
-    });
+    Diagnostics diagnostics(fail_at_warnings);
     CompileOptions options;
     options.block_width = kernels().lanes;
     options.instances = mode;
@@ -259,9 +257,7 @@ std::string lamp_profile() {
 
 TEST_P(VaryingEmission, PathsAgreeWithTheOracle) {
   for (const LightChoosing choosing : {LightChoosing::kPower, LightChoosing::kTree}) {
-    Diagnostics diagnostics([](Severity severity, std::string_view line) {
-      if (severity != Severity::kNote) ADD_FAILURE() << line;
-    });
+    Diagnostics diagnostics(fail_at_warnings);
     CompileOptions options;
     options.block_width = kernels().lanes;
     options.light_choice = choosing;
