@@ -1,6 +1,7 @@
 yat_test(work LABELS fast LIBS yat_wavefront SOURCES test_work.cpp)
 yat_test(plan LABELS fast LIBS yat_wavefront SOURCES test_plan.cpp)
 yat_test(renders LABELS render statistics per_isa LIBS yat_wavefront SOURCES test_renders.cpp)
+yat_test(pilot LABELS render per_isa LIBS yat_wavefront SOURCES test_pilot.cpp)
 yat_test(determinism LABELS render per_isa LIBS yat_wavefront SOURCES test_determinism.cpp)
 yat_test(oracle LABELS render statistics per_isa LIBS yat_wavefront SOURCES test_oracle.cpp)
 yat_test(spawned_rays LABELS fast per_isa LIBS yat_wavefront SOURCES test_spawned_rays.cpp)

@@ -9,6 +9,7 @@
 
 #include "per_isa.h"
 #include "render_scenes.h"
+#include "wavefront/pilot.h"
 
 namespace yat {
 namespace {
@@ -50,6 +51,35 @@ TEST_P(Determinism, SameBitsForAnyThreadsBatchTileAndSplit) {
     }
     EXPECT_TRUE(same_bits(expected, grown)) << "one sample at a time";
   }
+}
+
+TEST_P(Determinism, ShadowRaysThatPlayRouletteDoSoWhereverTheyAreTraced) {
+  const Scene scene = compile_text(everything_text(kWidth, kHeight), kernels());
+  PlanOptions options;
+  options.seed = 5;
+  options.shadow_roulette = .3;
+  Plan plan = make_plan(scene, kernels(), options);
+  set_shadow_bound(scene, plan);
+  ASSERT_GT(plan.transport.shadow_bound, 0.f);
+  const Film expected = render_film(scene, plan, 0, kSamples);
+  ASSERT_EQ(expected.total_samples(), uint64_t(kWidth) * kHeight * kSamples);
+  for (const uint32_t threads : {1u, 2u, 7u})
+    for (const uint32_t batch_rows : {16u, 1000u})
+      EXPECT_TRUE(
+          same_bits(expected, render_film(scene, plan, 0, kSamples, threads, batch_rows, 5)))
+          << threads << " threads, " << batch_rows << " rows";
+  Film merged = render_film(scene, plan, 2, kSamples, 2);
+  merged.merge(render_film(scene, plan, 0, 2, 3, 500));
+  EXPECT_TRUE(same_bits(expected, merged)) << "two ranges merged";
+  // A crop finds the bound anew, from the whole picture.
+  Scene part = compile_text(everything_text(kWidth, kHeight), kernels());
+  part.film.crop_x0 = 11, part.film.crop_x1 = 30, part.film.crop_y0 = 4, part.film.crop_y1 = 21;
+  Plan of_part = make_plan(part, kernels(), options);
+  set_shadow_bound(part, of_part);
+  const Film crop = render_film(part, of_part, 0, kSamples);
+  for (uint32_t y = 0; y < crop.height(); ++y)
+    for (uint32_t x = 0; x < crop.width(); ++x)
+      ASSERT_TRUE(same_bits(crop.at(x, y), expected.at(x + 11, y + 4))) << x << ' ' << y;
 }
 
 TEST_P(Determinism, TheSeedChangesThePicture) {

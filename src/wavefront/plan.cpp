@@ -205,6 +205,7 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
   // Light is sampled at vertices below max_depth only.
   plan.lights = scene.lights.size() > 0 && options.max_depth > 0 &&
                 (plan.light_sampling != LightSampling::kBsdf || has_unmet_lights(scene));
+  if (plan.lights) plan.shadow_roulette = options.shadow_roulette;
   plan.light_tree = scene.light_tree.nodes.size() > 0;
   const uint32_t lights = scene.lights.size(), in_group = scene.every_light ? 1 : lights;
   for (uint32_t i = 0; plan.lights && i < lights; i += in_group)

@@ -22,6 +22,9 @@ enum class LightSampling {
 };
 /// PlanOptions::roulette_depth for paths that go on to their last vertex.
 inline constexpr uint32_t kNoRoulette = 0xffffffffu;
+/// PlanOptions::shadow_roulette where all shadow rays are traced, and the value that is usual.
+inline constexpr double kNoShadowRoulette = 0;
+inline constexpr double kUsualShadowRoulette = kNoShadowRoulette;
 
 /// What is done with surfaces of one material.
 struct ShadePlan {
@@ -62,6 +65,9 @@ struct Plan {
   const KernelTable* kernels = nullptr;
   SamplerKind sampler = SamplerKind::kSobol;
   TransportOptions transport;
+  /// Share of the picture's level that transport.shadow_bound is to be, which set_shadow_bound()
+  /// (pilot.h) sees to; kNoShadowRoulette also where no light is sampled.
+  double shadow_roulette = kNoShadowRoulette;
   LightSampling light_sampling = LightSampling::kBoth;
   uint32_t set_columns = 8, set_rows = 8;  ///< of the samplers with sets: see DrawKey
   /// Key of all random numbers.
@@ -97,6 +103,7 @@ struct PlanOptions {
   LightSampling light_sampling = LightSampling::kBoth;
   /// First vertex at which Russian roulette may end a path, or kNoRoulette.
   uint32_t roulette_depth = TransportOptions{}.roulette_depth;
+  double shadow_roulette = kUsualShadowRoulette;  ///< see Plan: in (0, 1], or kNoShadowRoulette
   /// Samples of a pixel that stratified samplers spread together, at most kLargestSet. Rounded down
   /// to a grid's product where the sampler has a grid, and up to a power of two for zsobol.
   uint32_t sample_set = 64;

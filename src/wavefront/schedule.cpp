@@ -13,6 +13,8 @@ Worker::Worker(const Scene& scene, const Plan& plan, uint32_t batch_rows, bool t
       plan_(plan),
       kernels_(*plan.kernels),
       film_(film),
+      film_x0_(scene.film.crop_x0),
+      film_y0_(scene.film.crop_y0),
       batch_(scene, plan, batch_rows, FeatureRecorder::sums_per_path(features)),
       features_(scene, features, batch_rows),
       clock_(trace),
@@ -39,13 +41,12 @@ void Worker::generate(WorkCursor& work) {
   const uint32_t n = work.take(free_rows(), camera.pixel, camera.sample);
   if (!n) return;
   const SampleSum<Column>& sums = batch_.sums.columns();
-  const FilmSettings& film = scene_.film;
   for (uint32_t i = 0; i < n; ++i) {
     const uint32_t slot = batch_.free_slots[--batch_.free_count];
     const uint32_t x = camera.pixel[i] & 0xffffu, y = camera.pixel[i] >> 16;
     camera.slot[i] = slot;
     sums.r[slot] = sums.g[slot] = sums.b[slot] = 0;
-    sums.pixel[slot] = (y - film.crop_y0) * film_.width() + (x - film.crop_x0);
+    sums.pixel[slot] = (y - film_y0_) * film_.width() + (x - film_x0_);
     batch_.slot_sample[slot] = camera.sample[i];
   }
   if (features_.active()) features_.start(sums, camera.slot, n);
@@ -496,9 +497,8 @@ void Worker::flush(uint32_t row) {
   if (film_.data()[pixel].add(rgb.r, rgb.g, rgb.b)) {
     if (features_.active()) features_.record_light(sums, slot, rgb);
   } else {
-    const FilmSettings& film = scene_.film;
-    const uint32_t x = film.crop_x0 + pixel % film_.width();
-    const uint32_t y = film.crop_y0 + pixel / film_.width();
+    const uint32_t x = film_x0_ + pixel % film_.width();
+    const uint32_t y = film_y0_ + pixel / film_.width();
     counted_.drops.add(DropCause::kOther, y << 16 | x, batch_.slot_sample[slot]);
   }
   batch_.free_slots[batch_.free_count++] = slot;

@@ -70,6 +70,12 @@ class Worker {
   }
   /// Paths under way.
   uint32_t under_way() const { return count_; }
+  /// Paths that start from now on go to the film as if its pixel (0, 0) were (x, y) of the picture,
+  /// modulo 2^32. At first that is the corner of the crop window.
+  void place_film(uint32_t x, uint32_t y) {
+    film_x0_ = x;
+    film_y0_ = y;
+  }
   /// Starts up to free_rows() paths of `work`.
   void generate(WorkCursor& work);
   /// Takes every path under way one vertex further, and adds those that end to the film.
@@ -134,6 +140,7 @@ class Worker {
   const Plan& plan_;
   const KernelTable& kernels_;
   Film& film_;
+  uint32_t film_x0_, film_y0_;  ///< place of its first pixel in the picture
   Batch batch_;
   FeatureRecorder features_;
   StageClock clock_;
