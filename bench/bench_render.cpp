@@ -19,6 +19,7 @@
 #include "kernels/dispatch.h"
 #include "scene/compile.h"
 #include "scene/parse.h"
+#include "wavefront/pilot.h"
 #include "wavefront/render.h"
 
 namespace yat::bench {
@@ -74,12 +75,13 @@ void bench_render(benchmark::State& state, const std::string& path, uint32_t thr
   PlanOptions plan_options;
   plan_options.integrator = scene.direct_only ? Integrator::kDirect : Integrator::kPath;
   plan_options.max_depth = uint32_t(std::max(0, scene.max_depth));
-  const Plan plan = make_plan(scene, kernels, plan_options);
+  Plan plan = make_plan(scene, kernels, plan_options);
   RenderOptions options;
   options.end_sample = samples_per_pixel();
   uint64_t rays = 0, paths = 0;
   for (auto _ : state) {
     Film film(scene.film.crop_width(), scene.film.crop_height());
+    set_shadow_bound(scene, plan);
     const RenderResult result = render(scene, plan, options, pool, film);
     rays += result.stats.camera_rays + result.stats.bounce_rays + result.stats.shadow_rays;
     paths += result.stats.paths;

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/option_names.h"
 #include "app/option_texts.h"
 #include "app/options.h"
 #include "app/passes.h"
@@ -83,11 +85,23 @@ TEST(Options, EveryOptionIsRead) {
   EXPECT_EQ(a.progress, ProgressKind::kJson);
   EXPECT_EQ(a.verbosity, Verbosity::kVerbose);
   const Arguments ways = parse({"render", "a.lxs", "--light-choice", "uniform", "--light-sampling",
-                                "bsdf", "--roulette", "off"})
+                                "bsdf", "--roulette", "off", "--shadow-roulette", ".25"})
                              .arguments;
   EXPECT_EQ(ways.light_choice, LightChoosing::kUniform);
   EXPECT_EQ(ways.light_sampling, LightSampling::kBsdf);
   EXPECT_EQ(ways.roulette_depth, kNoRoulette);
+  EXPECT_EQ(ways.shadow_roulette, .25);
+  EXPECT_EQ(parse({"render", "a.lxs", "--shadow-roulette", "off"}).arguments.shadow_roulette,
+            kNoShadowRoulette);
+  EXPECT_EQ(parse({"info", "a.lxs", "--shadow-roulette", "1"}).arguments.shadow_roulette, 1.);
+  // What the documents call the default is the default.
+  const auto texts = render_option_texts();
+  const auto text = std::find_if(texts.begin(), texts.end(), [](const OptionText& option) {
+    return option.flags == "--shadow-roulette";
+  });
+  ASSERT_NE(text, texts.end());
+  EXPECT_EQ(text->fallback, shadow_roulette_name(kUsualShadowRoulette));
+  EXPECT_EQ(parse({"render", "a.lxs"}).arguments.shadow_roulette, kUsualShadowRoulette);
   EXPECT_EQ(parse({"render", "a.lxs", "--roulette", "0"}).arguments.roulette_depth, 0u);
   EXPECT_EQ(parse({"render", "a.lxs"}).arguments.roulette_depth, TransportOptions{}.roulette_depth);
   const Arguments range = parse({"render", "a.lxs", "--samples-range", "5,9", "-q"}).arguments;
@@ -136,6 +150,14 @@ TEST(Options, MistakesNameTheOptionAndTheWayOut) {
             "--light-sampling both: unknown; choose from mis, lights, bsdf");
   EXPECT_EQ(usage_error({"render", "a.lxs", "--roulette", "of"}),
             "--roulette of: \"of\" is not a number that fits here");
+  EXPECT_EQ(usage_error({"render", "a.lxs", "--shadow-roulette", "of"}),
+            "--shadow-roulette of: \"of\" is not a number that fits here");
+  EXPECT_EQ(usage_error({"render", "a.lxs", "--shadow-roulette", "30"}),
+            "--shadow-roulette 30: 30 is not within 0 to 1");
+  EXPECT_EQ(usage_error({"render", "a.lxs", "--shadow-roulette", "nan"}),
+            "--shadow-roulette nan: nan is not within 0 to 1");
+  EXPECT_EQ(usage_error({"render", "a.lxs", "--shadow-roulette", "0"}),
+            "--shadow-roulette 0: no shadow ray is below it; give a share above 0, or off");
   EXPECT_NE(usage_error({"render", "a.lxs", "--thread", "2"}).find("did you mean \"--threads\"?"),
             std::string::npos);
   EXPECT_NE(usage_error({"render"}).find("SCENE"), std::string::npos);
@@ -361,8 +383,9 @@ TEST(Report, ReplayNamesWhatIsNotAsUsual) {
   report.light_choice = LightChoosing::kTree;
   report.light_sampling = LightSampling::kBsdf;
   report.transport.roulette_depth = kNoRoulette;
-  EXPECT_NE(replay_commands(report).at(0).find(
-                " --light-choice tree --light-sampling bsdf --roulette off "),
+  report.shadow_roulette = .3;
+  EXPECT_NE(replay_commands(report).at(0).find(" --light-choice tree --light-sampling bsdf "
+                                               "--roulette off --shadow-roulette 0.3 "),
             std::string::npos);
   report.transport.roulette_depth = 5;
   EXPECT_NE(replay_commands(report).at(0).find(" --roulette 5 "), std::string::npos);
@@ -378,6 +401,7 @@ TEST(Report, ReplayIsReadAsTheSameSettings) {
   report.light_choice = LightChoosing::kUniform;
   report.light_sampling = LightSampling::kLights;
   report.transport.roulette_depth = 3;
+  report.shadow_roulette = .7;
   std::istringstream command(replay_commands(report).at(0));
   const std::vector<std::string> words{std::istream_iterator<std::string>(command), {}};
   std::vector<const char*> argv;
@@ -391,6 +415,7 @@ TEST(Report, ReplayIsReadAsTheSameSettings) {
   EXPECT_EQ(read.light_choice, report.light_choice);
   EXPECT_EQ(read.light_sampling, report.light_sampling);
   EXPECT_EQ(read.roulette_depth, report.transport.roulette_depth);
+  EXPECT_EQ(read.shadow_roulette, report.shadow_roulette);
   EXPECT_EQ(read.integrator, report.integrator);
   EXPECT_EQ(read.max_depth, report.transport.max_depth);
   EXPECT_EQ(read.sampler, report.sampler);

@@ -56,6 +56,15 @@ TEST(ConvergeOptions, VariantsLieOverWhatHoldsForAll) {
   EXPECT_NE(a.variants[0].scene_key, a.variants[2].scene_key);
 }
 
+TEST(ConvergeOptions, RoulettesAreThePlans) {
+  const ConvergeArguments a = parse_converge_arguments(
+      {"s.lxs", "-o", "out", "--variant", "off: --roulette off --shadow-roulette off", "--variant",
+       "faint: --shadow-roulette .3"});
+  EXPECT_EQ(a.variants[0].arguments.shadow_roulette, kNoShadowRoulette);
+  EXPECT_EQ(a.variants[1].arguments.shadow_roulette, .3);
+  EXPECT_EQ(a.variants[0].scene_key, a.variants[1].scene_key);
+}
+
 // A target decides about samples: one point instead of a ladder, and nothing for the reference.
 TEST(ConvergeOptions, VariantsMayHaveANoiseTarget) {
   const ConvergeArguments a =

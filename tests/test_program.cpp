@@ -304,6 +304,27 @@ TEST_F(Program, CropAndSampleRangeRenderJustThat) {
   EXPECT_EQ(stats["samples"], 50 * 25 * 2);
 }
 
+TEST_F(Program, TheBoundOfShadowRaysIsThatOfTheWholePicture) {
+  const auto bound = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {"render", "scene.lxs", "--resolution", "100x50", "--stats",
+                                      "s.json", "-q"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = yat(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    const auto stats = nlohmann::json::parse(read_whole(folder_ / "s.json"));
+    EXPECT_EQ(stats["time"]["pilot"] > 0, stats["shadow_bound"] > 0);
+    EXPECT_LT(stats["time"]["pilot"], stats["time"]["render"]);
+    return stats["shadow_bound"].get<double>();
+  };
+  const double whole = bound({"--spp", "2", "--shadow-roulette", ".25"});
+  EXPECT_GT(whole, 0);
+  EXPECT_EQ(bound({"--samples-range", "3,4", "--crop", ".5,.51,.5,.52", "--threads", "3",
+                   "--shadow-roulette", ".25"}),
+            whole);
+  EXPECT_EQ(bound({"--noise-target", "1", "--shadow-roulette", ".5"}), 2 * whole);
+  EXPECT_EQ(bound({"--spp", "2", "--shadow-roulette", "off"}), 0);
+}
+
 TEST_F(Program, TheTimeLimitEndsARenderWithoutEnd) {
   const ProgramResult result =
       yat({"render", "scene.lxs", "--time", "0.3", "-o", "t.png", "--progress", "none"});

@@ -7,6 +7,7 @@
 #include "film/features.h"
 #include "measure.h"
 #include "scene/parse.h"
+#include "wavefront/pilot.h"
 #include "wavefront/reference.h"
 #include "wavefront/render.h"
 
@@ -51,7 +52,9 @@ Plan plan_for(const Prepared& p, const Machine& machine, uint32_t seed) {
   options.max_depth = p.probe.max_depth;
   options.light_sampling = p.probe.light_sampling;
   options.seed = seed;
-  return make_plan(p.scene, machine.kernels, options);
+  Plan plan = make_plan(p.scene, machine.kernels, options);
+  set_shadow_bound(p.scene, plan);
+  return plan;
 }
 
 double render_mean(const Prepared& p, const Machine& machine, uint32_t seed, uint32_t spp,

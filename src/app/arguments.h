@@ -50,6 +50,7 @@ struct Arguments {
   LightChoosing light_choice = LightChoosing::kAuto;
   LightSampling light_sampling = LightSampling::kBoth;
   uint32_t roulette_depth = TransportOptions{}.roulette_depth;
+  double shadow_roulette = kUsualShadowRoulette;     ///< see PlanOptions
   uint64_t image_bytes = ImageStore::kDefaultLimit;  ///< --texture-cache
   EnergyCompensation compensation = EnergyCompensation::kAuto;
   std::string isa;

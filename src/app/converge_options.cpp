@@ -49,9 +49,9 @@ constexpr std::string_view kNotForVariants[] = {
     "--aov",    "--stats", "--trace",         "--progress", "--verbose", "--quiet",   "--help"};
 
 /// Options that leave the compiled scene as it is. What is not here gets a scene of its own.
-constexpr std::string_view kOfThePlan[] = {"--sampler",      "--sample-set",     "--max-depth",
-                                           "--threads",      "--light-sampling", "--roulette",
-                                           "--noise-target", "--adaptive"};
+constexpr std::string_view kOfThePlan[] = {
+    "--sampler",  "--sample-set",   "--max-depth", "--threads",        "--light-sampling",
+    "--roulette", "--noise-target", "--adaptive",  "--shadow-roulette"};
 
 template <size_t N>
 bool among(std::string_view name, const std::string_view (&names)[N]) {

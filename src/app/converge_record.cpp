@@ -39,6 +39,7 @@ Json settings_of(const ConvergeRenders& renders, const ConvergeVariant& variant,
           {"roulette", plan.transport.roulette_depth == kNoRoulette
                            ? Json("off")
                            : Json(plan.transport.roulette_depth)},
+          {"shadow_roulette", shadow_roulette_name(plan.shadow_roulette)},
           {"colour", name_of(colour_mode(variant.arguments), kColourModes)},
           {"compat", name_of(variant.arguments.dialect, kDialects)}};
 }
@@ -105,6 +106,7 @@ RunRecord record_of_run(const ConvergeArguments& arguments, const ConvergeRender
        {{"read", time.read},
         {"build", time.build},
         {"render", record.seconds},
+        {"pilot", result.totals.pilot_seconds},
         {"write", write_seconds},
         {"first_pixel", time.read + time.build}}},
       {"peak_rss", peak_memory_bytes()},
@@ -112,6 +114,7 @@ RunRecord record_of_run(const ConvergeArguments& arguments, const ConvergeRender
        {{"scene", scene.bytes},
         {"film", result.film_bytes},
         {"work", result.totals.scratch_bytes}}},
+      {"shadow_bound", result.totals.shadow_bound},
       {"rays", rays_json(stats)},
       {"lanes", lanes_json(stats)},
       {"stages", stages_json(stats)},

@@ -92,6 +92,7 @@ Plan plan_of(const Arguments& arguments, const KernelTable& kernels, const Scene
   plan.seed = arguments.seed;
   plan.light_sampling = arguments.light_sampling;
   plan.roulette_depth = arguments.roulette_depth;
+  plan.shadow_roulette = arguments.shadow_roulette;
   return make_plan(scene, kernels, plan);
 }
 

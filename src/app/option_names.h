@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -85,6 +86,11 @@ std::string_view name_of(T wanted, const std::array<std::pair<std::string_view, 
   for (const auto& [name, value] : names)
     if (value == wanted) return name;
   return "unknown";
+}
+
+/// A value of --shadow-roulette.
+inline std::string shadow_roulette_name(double share) {
+  return share == kNoShadowRoulette ? "off" : fmt::format("{}", share);
 }
 
 }  // namespace yat

@@ -30,6 +30,10 @@ constexpr OptionText kRoulette = {
     "--roulette", "N|off", "1",
     "vertex from which on dim paths end by chance, brighter survivors making up for it; off: "
     "paths go on to --max-depth"};
+constexpr OptionText kShadowRoulette = {
+    "--shadow-roulette", "SHARE|off", "off",
+    "shadow rays that may bring less than this share of the picture's level are traced by chance, "
+    "those traced making up for it; a pilot of 4096 paths tells the level"};
 constexpr OptionText kTextureCache = {
     "--texture-cache", "MB", "2048",
     "most memory for the texels of images; the finest levels are left out beyond it"};
@@ -74,6 +78,7 @@ constexpr OptionText kRenderOptions[] = {
     kLightChoice,
     kLightSampling,
     kRoulette,
+    kShadowRoulette,
     kTextureCache,
     {"--energy-compensation", "auto|on|off", "auto",
      "add back what the facets of a rough lobe lose to each other; auto: where the look is not "
@@ -108,6 +113,7 @@ constexpr OptionText kInfoOptions[] = {
     kLightChoice,
     kLightSampling,
     kRoulette,
+    kShadowRoulette,
     kTextureCache,
     kIsa,
     kTree,

@@ -26,8 +26,8 @@ constexpr uint32_t kMostSamples = uint32_t(1) << 30;
 struct Given {
   std::string spp, samples_range, time, noise_target, adaptive, threads, integrator, max_depth,
       sampler, sample_set, compat, colour, seed, resolution, crop, instances, light_choice,
-      light_sampling, roulette, texture_cache, compensation, tree, tone_map, exposure, aov,
-      progress;
+      light_sampling, roulette, shadow_roulette, texture_cache, compensation, tree, tone_map,
+      exposure, aov, progress;
   bool verbose = false, quiet = false;
 };
 
@@ -70,6 +70,7 @@ void add_shared(Adder& add, Arguments& arguments, Given& given) {
   add("--light-choice", given.light_choice);
   add("--light-sampling", given.light_sampling);
   add("--roulette", given.roulette);
+  add("--shadow-roulette", given.shadow_roulette);
   add("--texture-cache", given.texture_cache);
   add("--isa", arguments.isa);
   add("--tree", given.tree);
@@ -135,6 +136,15 @@ struct GivenDiff {
     if (!flip.empty()) to.fail_flip = number<double>("--failflip", flip, flip, 0, 1);
   }
 };
+
+double shadow_share(const std::string& text) {
+  if (text == "off") return kNoShadowRoulette;
+  const auto share = number<double>("--shadow-roulette", text, text, 0, 1);
+  if (share == 0)
+    throw UsageError(fmt::format(
+        "--shadow-roulette {}: no shadow ray is below it; give a share above 0, or off", text));
+  return share;
+}
 
 void read_given(const Given& given, Arguments& to) {
   if (!given.spp.empty())
@@ -217,6 +227,7 @@ void read_given(const Given& given, Arguments& to) {
     to.roulette_depth = given.roulette == "off" ? kNoRoulette
                                                 : number<uint32_t>("--roulette", given.roulette,
                                                                    given.roulette, 0, 65535);
+  if (!given.shadow_roulette.empty()) to.shadow_roulette = shadow_share(given.shadow_roulette);
   if (!given.texture_cache.empty())
     to.image_bytes = uint64_t(number<uint32_t>("--texture-cache", given.texture_cache,
                                                given.texture_cache, 1u, 8191u))

@@ -4,6 +4,8 @@
 #include <condition_variable>
 #include <thread>
 
+#include "wavefront/pilot.h"
+
 namespace yat {
 
 /// Calls f about ten times a second on a thread of its own, until it goes.
@@ -47,11 +49,16 @@ void add_drops(const DropLog& from, DropLog& to) {
 
 }  // namespace
 
-PassRunner::PassRunner(const PassContext& context) : context_(context) {
+PassRunner::PassRunner(const PassContext& context) : context_(context), plan_(context.plan) {
   ticker_ = std::make_unique<Ticker>([this] {
     over();
     context_.progress.show(state());
   });
+  if (plan_.shadow_roulette == kNoShadowRoulette) return;
+  const double begin = seconds();
+  set_shadow_bound(context_.scene, plan_);
+  totals_.pilot_seconds = seconds() - begin;
+  totals_.shadow_bound = plan_.transport.shadow_bound;
 }
 
 PassRunner::~PassRunner() = default;
@@ -92,7 +99,7 @@ bool PassRunner::run(RenderOptions options, Film& film) {
     paths_now_ = paths_before + paths;
     rays_now_ = rays_before + rays_of(so_far);
   };
-  RenderResult result = render(context_.scene, context_.plan, options, context_.pool, film);
+  RenderResult result = render(context_.scene, plan_, options, context_.pool, film);
   totals_.stats.merge(result.stats);
   add_drops(result.drops, totals_.drops);
   const auto offset = uint64_t(begin * 1e9);

@@ -25,6 +25,8 @@ struct RenderTotals {
   std::vector<TraceSpan> trace;
   uint64_t scratch_bytes = 0;
   double seconds = 0;
+  double pilot_seconds = 0;  ///< of these: what it took to find shadow_bound
+  float shadow_bound = 0;    ///< see TransportOptions
   uint32_t passes = 0;
   bool timed_out = false;
   double noise_target = 0;             ///< relMSE; 0: none
@@ -45,7 +47,8 @@ struct PassContext {
   bool trace = false;
 };
 
-/// Progress is shown about ten times a second from when it is made until finish().
+/// Progress is shown about ten times a second from when it is made until finish(). Where shadow
+/// rays play roulette their bound is found first, once for all passes.
 class PassRunner {
  public:
   explicit PassRunner(const PassContext& context);
@@ -68,6 +71,7 @@ class PassRunner {
   ProgressState state();
 
   const PassContext context_;
+  Plan plan_;  ///< the context's, with the bound of shadow rays
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   RenderTotals totals_;
   std::atomic<bool> timed_out_{false};

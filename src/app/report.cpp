@@ -156,6 +156,8 @@ std::string unusual_options(const RenderReport& report) {
     text += report.transport.roulette_depth == kNoRoulette
                 ? " --roulette off"
                 : fmt::format(" --roulette {}", report.transport.roulette_depth);
+  if (report.shadow_roulette != kUsualShadowRoulette)
+    text += " --shadow-roulette " + shadow_roulette_name(report.shadow_roulette);
   if (report.tree != TreeChoice::kFromScene)
     text += fmt::format(" --tree {}", name_of(report.tree, kTrees));
   if (report.instances != InstanceMode::kAuto)

@@ -27,6 +27,7 @@ struct RenderReport {
   Dialect dialect = Dialect::kLuxRender;
   TransportOptions transport;
   LightSampling light_sampling = LightSampling::kBoth;
+  double shadow_roulette = kUsualShadowRoulette;  ///< as asked for, see PlanOptions
   LightChoosing light_choice = LightChoosing::kAuto;
   TreeChoice tree = TreeChoice::kFromScene;
   InstanceMode instances = InstanceMode::kAuto;

@@ -70,6 +70,7 @@ RenderReport report_of(const Arguments& arguments, const Loaded& loaded, const T
   report.dialect = arguments.dialect;
   report.transport = loaded.plan.transport;
   report.light_sampling = loaded.plan.light_sampling;
+  report.shadow_roulette = arguments.shadow_roulette;
   report.light_choice = arguments.light_choice;
   report.tree = arguments.tree;
   report.instances = arguments.instances;

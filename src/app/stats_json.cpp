@@ -111,15 +111,16 @@ std::string stats_json(const RenderReport& report) {
       {"roulette", report.transport.roulette_depth == kNoRoulette
                        ? Json(nullptr)
                        : Json(report.transport.roulette_depth)},
+      {"shadow_roulette",
+       report.shadow_roulette == kNoShadowRoulette ? Json(nullptr) : Json(report.shadow_roulette)},
       {"colour", name_of(report.colour, kColourModes)},
       {"tonemap", name_of(report.film.tone_map, kToneMaps)},
       {"exposure", report.film.exposure_stops},
       {"outputs", report.outputs}};
-  record["time"] = {{"read", report.time.read},
-                    {"build", report.time.build},
-                    {"render", report.time.render},
-                    {"write", report.time.write},
-                    {"first_pixel", report.time.read + report.time.build}};
+  record["time"] = {
+      {"read", report.time.read},     {"build", report.time.build},
+      {"render", report.time.render}, {"pilot", report.totals.pilot_seconds},
+      {"write", report.time.write},   {"first_pixel", report.time.read + report.time.build}};
   record["cpu_time"] = cpu_seconds();
   record["peak_rss"] = peak_memory_bytes();
   record["memory"] = {{"scene", report.scene_bytes},
@@ -128,6 +129,7 @@ std::string stats_json(const RenderReport& report) {
   record["samples"] = report.samples;
   record["paths"] = stats.paths;
   record["passes"] = report.totals.passes;
+  record["shadow_bound"] = report.totals.shadow_bound;
   record["interrupted"] = report.interrupted;
   record["timed_out"] = report.totals.timed_out;
   if (report.totals.noise) record["noise"] = noise_json(report.totals);

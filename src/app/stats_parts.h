@@ -8,8 +8,8 @@
 
 namespace yat {
 
-/// Rays by kind. skipped_shadow: points of lights that were sampled, but bring nothing, so that no
-/// ray was traced.
+/// Rays by kind. skipped_shadow: points of lights that were sampled, but bring nothing or lost
+/// their roulette, so that no ray was traced.
 nlohmann::ordered_json rays_json(const RenderStats& stats);
 /// Occupied lanes by stage; stages that ran: time [s], items, bytes (of the columns that the items
 /// take, see stage_row_bytes()), calls.

@@ -14,6 +14,7 @@
 #include "film/film.h"
 #include "film/output.h"
 #include "kernels/dispatch.h"
+#include "wavefront/pilot.h"
 #include "wavefront/render.h"
 
 namespace yat {
@@ -73,7 +74,9 @@ Run render_once(const YartArguments& given, const Loaded& loaded, ThreadPool& po
   options.stop = &stop;
   if (given.heart_beat) options.tile_done = [] { print("."); };
   Stopwatch watch;
-  const RenderResult result = render(loaded.scene, loaded.plan, options, pool, run.film);
+  Plan plan = loaded.plan;
+  set_shadow_bound(loaded.scene, plan);
+  const RenderResult result = render(loaded.scene, plan, options, pool, run.film);
   run.seconds = watch.lap();
   for (const uint64_t count : result.drops.count) run.dropped += count;
   return run;
