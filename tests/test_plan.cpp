@@ -123,6 +123,22 @@ TEST(Plan, RouletteMayBeOff) {
   EXPECT_NE(describe_plan(plan, scene).find("--roulette off"), std::string::npos);
 }
 
+TEST(Plan, TellsWhetherShadowRaysPlayRoulette) {
+  const KernelTable& kernels = select_kernels();
+  const Scene scene = compile_text(pinhole_room("LightSource \"point\"\n"), kernels);
+  const auto told = [&](const PlanOptions& options, std::string_view what) {
+    return describe_plan(make_plan(scene, kernels, options), scene).find(what) != std::string::npos;
+  };
+  PlanOptions options;
+  options.shadow_roulette = .25;
+  EXPECT_TRUE(told(options, "shadow rays below 0.25 of the level play roulette"));
+  options.max_depth = 0;
+  EXPECT_TRUE(told(options, "pilot: no light is sampled"));
+  options.max_depth = 8;
+  options.shadow_roulette = kNoShadowRoulette;
+  EXPECT_TRUE(told(options, "pilot: all shadow rays are traced (--shadow-roulette off)"));
+}
+
 TEST(Plan, ATableWithoutANeededKernelIsRefused) {
   KernelTable kernels = select_kernels();
   const Scene scene = compile_text(everything_text(8, 8), kernels);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "kernels/texture.h"
+#include "wavefront/pilot.h"
 #include "wavefront/plan.h"
 #include "wavefront/stages.h"
 
@@ -112,6 +113,13 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
     fmt::format_to(std::back_inserter(text), "  {:<17}{}\n", stage_name(stage), what);
   };
   text += fmt::format("stages ({}, {} lanes)\n", plan.kernels->isa, plan.kernels->lanes);
+  const bool pilot = plan.shadow_roulette != kNoShadowRoulette;
+  if (pilot)
+    text += fmt::format(
+        "  {:<17}before the first pass, {} windows of {} x {} pixels: shadow rays below {:g} of "
+        "the "
+        "level play roulette\n",
+        "pilot", kPilotWindows, kPilotWindowEdge, kPilotWindowEdge, plan.shadow_roulette);
   line(Stage::kGenerate,
        fmt::format("generate_camera_rays ({}), {} numbers: {} x {} pixels",
                    camera_kind_name(plan.camera), kSamplerNames[uint32_t(plan.sampler)],
@@ -232,6 +240,9 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
           plan.transport.roulette_depth == kNoRoulette
               ? "paths go on to their last vertex (--roulette off)"
               : "no path gets as far as Russian roulette");
+  skipped(
+      pilot, "pilot",
+      plan.lights ? "all shadow rays are traced (--shadow-roulette off)" : "no light is sampled");
   for (uint32_t kind = 0; kind < kMaterialKinds; ++kind)
     skipped(any_bin([&](const ShadePlan& b) { return b.material == MaterialKind(kind); }),
             "shade " + std::string(material_traits(MaterialKind(kind)).name),
