@@ -41,6 +41,7 @@ inline std::string coat_over(const std::string& base, const std::string& more) {
 inline const std::string kCompositeParts =
     named_material("white", "[\"matte\"] \"color Kd\" [1 1 1]") +
     named_material("tinted", "[\"matte\"] \"color Kd\" [.75 .5 .25]") +
+    named_material("dark", "[\"matte\"] \"color Kd\" [.0625 .03125 0]") +
     named_material("rough", "[\"matte\"] \"color Kd\" [1 .5 .25] \"float sigma\" [30]") +
     named_material("sheet",
                    "[\"mattetranslucent\"] \"color Kr\" [.5 .25 0] \"color Kt\" [1 .5 .25] "
@@ -60,6 +61,9 @@ inline const Formula kWhiteFormula = above_only(
     [](const glm::dvec3&, const glm::dvec3&) { return glm::dvec3(1 / std::numbers::pi); });
 inline const Formula kTintedFormula = above_only([](const glm::dvec3&, const glm::dvec3&) {
   return glm::dvec3(.75, .5, .25) / std::numbers::pi;
+});
+inline const Formula kDarkFormula = above_only([](const glm::dvec3&, const glm::dvec3&) {
+  return glm::dvec3(.0625, .03125, 0) / std::numbers::pi;
 });
 inline const Formula kRoughFormula = above_only([](const glm::dvec3& wo, const glm::dvec3& wi) {
   return glm::dvec3(1, .5, .25) / std::numbers::pi * oren_nayar_factor(30, wo, wi);
@@ -98,11 +102,20 @@ inline std::vector<Composite> composites(MixParameters<Value>) {
            mixed(kTintedFormula, kNoFormula, .3)),
       both("glass and matte", mix_of("m", "glass", "tinted", ".5"),
            mixed(kNoFormula, kTintedFormula, .5)),
-      both("veil", mix_of("m", "hole", "sheet", ".4"), mixed(kNoFormula, kSheetFormula, .4))};
+      both("veil", mix_of("m", "hole", "sheet", ".4"), mixed(kNoFormula, kSheetFormula, .4)),
+      // Children that give back unlike amounts of light.
+      both("white and dark", mix_of("m", "white", "dark", ".75"),
+           mixed(kWhiteFormula, kDarkFormula, .75)),
+      both("dark veil", mix_of("m", "dark", "hole", ".4"), mixed(kDarkFormula, kNoFormula, .4)),
+      both("nested, dark and mirror",
+           mix_of("two", "dark", "tinted", ".25") + mix_of("m", "two", "mirror", ".5"),
+           mixed(mixed(kDarkFormula, kTintedFormula, .25), kNoFormula, .5))};
   all[3].single = [](double, bool) { return .3 * glm::dvec3(1, .5, .25); };
   all[4].single = [](double, bool) { return glm::dvec3(.5); };
   all[4].index = 1.5;
   all[5].single = [](double, bool) { return glm::dvec3(.6); };
+  all[7].single = [](double, bool) { return glm::dvec3(.4); };
+  all[8].single = [](double, bool) { return .5 * glm::dvec3(1, .5, .25); };
   return all;
 }
 
@@ -173,7 +186,10 @@ inline std::vector<Composite> composites(CoatingParameters<Value>) {
       over("over a mirror", coat_over("mirror", dark_text), dark, kNoFormula),
       over("over a mixture",
            mix_of("mixture", "white", "mirror", ".5") + coat_over("mixture", thin_text), thin,
-           mixed(kWhiteFormula, kNoFormula, .5))};
+           mixed(kWhiteFormula, kNoFormula, .5)),
+      over("over a dark mixture",
+           mix_of("mixture", "dark", "tinted", ".125") + coat_over("mixture", thin_text), thin,
+           mixed(kDarkFormula, kTintedFormula, .125))};
   all[3].single = reflected(dark, {1, .5, .25});
   all[4].single = reflected(thin, .5 * glm::dvec3(1, .5, .25));
   return all;

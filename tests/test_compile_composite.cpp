@@ -63,6 +63,61 @@ TEST_F(CompileComposite, FormsAreSharedAndKnowWhatPasses) {
   EXPECT_SILENT();
 }
 
+TEST_F(CompileComposite, UnequalChildrenAreToldApart) {
+  const auto matte = [&](float k) { return material(plugin("matte", {color("Kd", k, k, k)})); };
+  const auto of = [&](uint32_t m) {
+    const Scene scene = with(m);
+    const uint32_t row = scene.triangles.row(0).parameter;
+    MixParameters<Value> p{};
+    const uint32_t* words =
+        scene.parameters[uint32_t(MaterialKind::kMix)].data() + row * row_words<MixParameters>;
+    for_each_field([&](auto index, auto& field) { std::memcpy(&field, words + index, 4); }, p);
+    return std::pair(scene.splits[bin(scene).split].unequal, p.ratio);
+  };
+  EXPECT_EQ(of(mix(matte(.75f), matte(.75f), .5f)), std::pair(false, 1.f));
+  EXPECT_FALSE(of(mix(matte(.5f), matte(.6f), .5f)).first);
+  EXPECT_EQ(of(mix(matte(.25f), mirror, .5f)), std::pair(true, 4.f));
+  // A hole counts half.
+  EXPECT_EQ(of(mix(hole, matte(.25f), .5f)), std::pair(true, .5f));
+  // Never less than an eighth.
+  EXPECT_EQ(of(mix(matte(0), mirror, .5f)), std::pair(true, 8.f));
+  // A mixture by its shares: (.25 + .75) / 2.
+  EXPECT_EQ(of(mix(mix(matte(.25f), matte(.75f), .5f), mirror, .5f)), std::pair(true, 2.f));
+  // Coats and bases together, head-on; both sides of a sheet; a texture by its mean; what a kind
+  // says nothing of counts in full.
+  const auto ratio_to_mirror = [&](uint32_t m) { return of(mix(m, mirror, .5f)).second; };
+  EXPECT_FLOAT_EQ(ratio_to_mirror(material(plugin(
+                      "glossy", {color("Kd", .2f, .2f, .2f), color("Ks", .25f, .25f, .25f)}))),
+                  1 / .4f);
+  EXPECT_FLOAT_EQ(
+      ratio_to_mirror(material(plugin(
+          "glossy_lossy", {color("Kd", 0, 0, 0), color("Ks", 1, 1, 1), number("index", 3)}))),
+      4);
+  EXPECT_FLOAT_EQ(
+      ratio_to_mirror(material(plugin(
+          "mattetranslucent", {color("Kr", .25f, .25f, .25f), color("Kt", .25f, .25f, .25f)}))),
+      2);
+  EXPECT_FLOAT_EQ(ratio_to_mirror(material(plugin("velvet", {color("Kd", 0, 0, 0)}))), 1);
+  EXPECT_FLOAT_EQ(
+      ratio_to_mirror(material(plugin(
+          "glossycoating", {made_of("basematerial", matte(.2f)), color("Ks", .25f, .25f, .25f)}))),
+      1 / .4f);
+  // Where sides differ, the brighter one.
+  const uint32_t sides = material(plugin("doubleside", {made_of("frontnamedmaterial", matte(.25f)),
+                                                        made_of("backnamedmaterial", mirror)}));
+  EXPECT_EQ(of(mix(sides, mirror, .5f)), std::pair(false, 1.f));
+  // Materials whose children are alike do not share the others' bin.
+  const uint32_t alike = mix(matte(.5f), matte(.5f), .5f), unlike = mix(matte(.125f), hole, .5f);
+  description.shapes.clear();
+  shape(square()).material = mix(matte(.25f), matte(.75f), .5f);
+  shape(square()).material = alike;
+  shape(square()).material = unlike;
+  const Scene scene = compile();
+  EXPECT_NE(scene.prim_bin[0], scene.prim_bin[2]);
+  EXPECT_NE(scene.prim_bin[0], scene.prim_bin[4]);
+  EXPECT_SILENT();
+}
+
 TEST_F(CompileComposite, VeilsOfAllShapes) {
   description.shapes.clear();
   const uint32_t veil = mix(solid, hole, .5f);

@@ -84,19 +84,21 @@ class Whole {
     if (!material_traits(form.kind).splits) return visit(form.kind, rows, turned);
     const bool coating = form.kind == MaterialKind::kCoating;
     const uint32_t n = rows.n;
-    AlignedArray<float> share(n), left(n);
+    AlignedArray<float> share(n), weighted(n), left(n);
     AlignedArray<uint32_t> child(n), first(n), second(n), order(n);
     const ParameterView view = parameters(form.kind);
     k_.split[uint32_t(form.kind)](view, rows.surfaces.view(), false, share.data(), first.data(),
                                   second.data(), n);
-    k_.choose_child(share.data(), rows.u.data(), child.data(), left.data(), n);
+    const MaterialSplit& split = scene_.splits[form.split];
+    if (split.unequal) k_.chances(view, rows.surfaces.view(), share.data(), weighted.data(), n);
+    const float* chances = split.unequal ? weighted.data() : share.data();
+    k_.choose_child(chances, rows.u.data(), child.data(), left.data(), n);
     Table<Coat> own(n);
     if (coating) k_.coats(view, rows.surfaces.view(), own.columns(), n);
-    const MaterialSplit& split = scene_.splits[form.split];
     for (uint32_t c = 0; c < 2; ++c) {
       std::vector<double> chance;
       for (uint32_t i = 0; i < n; ++i) {
-        const double here = double(c ? share[i] : 1 - share[i]);
+        const double here = double(c ? chances[i] : 1 - chances[i]);
         if (everywhere ? here == 0 : child[i] != c) continue;
         order[uint32_t(chance.size())] = i;
         chance.push_back(rows.chance[i] * here);
@@ -108,7 +110,9 @@ class Whole {
       from.parameter = c ? second.data() : first.data();
       k_.take_rows(from, rows.paths.view(), left.data(), order.data(), split.turned[c],
                    next.surfaces.columns(), next.paths.columns(), next.u.data(), next.n);
-      if (coating) k_.weigh_child(share.data(), order.data(), c, next.paths.columns(), next.n);
+      if (coating || split.unequal)
+        k_.weigh_child(coating ? nullptr : share.data(), chances, order.data(), c,
+                       next.paths.columns(), next.n);
       next.coated = rows.coated || (coating && c);
       if (next.coated)
         k_.take_coats(coating && c ? own.view() : rows.coats.view(), order.data(),

@@ -113,6 +113,27 @@ TEST_P(Features, OfACoatedFloor) {
   EXPECT_EQ(seen, kSide * (kSide / 2));
 }
 
+TEST_P(Features, OfAFloorOfUnequalMaterials) {
+  // The brighter material is chosen more often: what is seen of it counts the less.
+  const Scene scene = compile_text(
+      floor_text("MakeNamedMaterial \"a\" \"string type\" [\"matte\"] \"color Kd\" [.04 .04 .04]\n"
+                 "MakeNamedMaterial \"b\" \"string type\" [\"matte\"] \"color Kd\" [.8 .8 .8]\n"
+                 "Material \"mix\" \"string namedmaterial1\" [\"a\"] \"string namedmaterial2\" "
+                 "[\"b\"] \"float amount\" [.25]\n"),
+      kernels());
+  const Pictures p = render_features(scene, make_plan(scene, kernels(), {}), 256);
+  const auto normal = p.of(Feature::kNormal), albedo = p.of(Feature::kAlbedo);
+  double sum = 0;
+  uint32_t seen = 0;
+  for (uint32_t i = 0; i < kSide * kSide; ++i) {
+    if (i % kSide >= kSide / 2) continue;
+    ++seen;
+    EXPECT_NEAR(normal[3 * i + 2], 1, 1e-5);
+    sum += double(albedo[3 * i]);
+  }
+  EXPECT_NEAR(sum / seen, .75 * .04 + .25 * .8, .003);
+}
+
 /// A quad about (x, 0, -2), 2 wide, 4 long, flat, with texture coordinates.
 std::string tile_text(double x) {
   const std::string left = std::to_string(x - 1), right = std::to_string(x + 1);

@@ -113,6 +113,54 @@ TEST_P(Split, OneNumberChoosesBySharesAgainAndAgain) {
   }
 }
 
+TEST_P(Split, BrighterChildrenAreChosenMoreOften) {
+  // Eight times as bright, at every share: what is brought stays, by whichever child.
+  const KernelTable& k = kernels();
+  const Scene scene = compile_text(view_text("1 -1 .5", "0 0 0", .02, 8, 8) + kBasics +
+                                       mix("m", "black", "mirror", .5) + use("m") + shelf("0") +
+                                       "LightSource \"point\"\nWorldEnd\n",
+                                   k);
+  ASSERT_TRUE(scene.splits[scene.bins[1].split].unequal);
+  for (const uint32_t n : tail_counts(k.lanes)) {
+    Table<Surface> surfaces(n);
+    AlignedArray<float> share(n);
+    AlignedArray<uint32_t> order(n);
+    for (uint32_t i = 0; i < n; ++i) {
+      surfaces.columns().parameter[i] = scene.triangles.row(0).parameter;
+      share[i] = n == 1 ? 1.f : float(i) / float(n - 1);
+      order[i] = n - 1 - i;
+    }
+    GuardedColumn<float> chance(n);
+    k.chances(scene.view().parameters[uint32_t(MaterialKind::kMix)], surfaces.view(), share.data(),
+              chance.data(), n);
+    EXPECT_TRUE(chance.untouched());
+    AlignedArray<float> chances(n);
+    for (uint32_t i = 0; i < n; ++i) {
+      const double s = double(share[i]);
+      EXPECT_NEAR(chance[i], 8 * s / (1 - s + 8 * s), 1e-6);
+      chances[i] = chance[i];
+    }
+    for (uint32_t c = 0; c < 2; ++c) {
+      Table<PathState> paths(n);
+      for (uint32_t i = 0; i < n; ++i) {
+        PathState<Value> p{};
+        p.throughput_r = 1, p.throughput_g = 2, p.throughput_b = 3;
+        paths.set(i, p);
+      }
+      k.weigh_child(share.data(), chances.data(), order.data(), c, paths.columns(), n);
+      for (uint32_t i = 0; i < n; ++i) {
+        const auto of_child = [&](float second) { return double(c ? second : 1 - second); };
+        const double taken = of_child(chances[order[i]]);
+        if (taken == 0) continue;
+        const double whole = of_child(share[order[i]]);
+        EXPECT_NEAR(double(paths.row(i).throughput_r) * taken, whole, 1e-6);
+        EXPECT_NEAR(double(paths.row(i).throughput_g) * taken, 2 * whole, 2e-6);
+        EXPECT_NEAR(double(paths.row(i).throughput_b) * taken, 3 * whole, 3e-6);
+      }
+    }
+  }
+}
+
 TEST_P(Split, RowsAreTakenAtEveryCount) {
   const KernelTable& k = kernels();
   Random random(5);
@@ -265,6 +313,26 @@ TEST_P(Split, MixturesByTheirShares) {
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(seen[k], exact[k], .01 * exact[k]);
 }
 
+TEST_P(Split, UnequalChildrenBringTheirShares) {
+  // Each brings its share, however often it is chosen.
+  const std::string dark = named("dark", "[\"matte\"] \"color Kd\" [.02 .02 .02]");
+  const auto text = [&](const std::string& materials) {
+    return floor_text(dark + materials, "m", shelf("0"));
+  };
+  const double free = 1 / (4 * std::numbers::pi);
+  expect_red(text(mix("m", "dark", "red", .5)), 64, 1, .5 * .82 * free);
+  expect_red(text(mix("m", "red", "dark", .875)), 64, 1, (.125 * .8 + .875 * .02) * free);
+  expect_red(text(mix("inner", "dark", "red", .25) + mix("m", "inner", "dark", .5)), 64, 1,
+             (.875 * .02 + .125 * .8) * free);
+  // The same where a veil is chosen for what it lets pass: the floor below is grey.
+  const std::string veiled = view_text("2 -2 4", "0 0 0", .02, 2, 2) + kBasics + dark +
+                             mix("veil", "dark", "hole", .5) + use("grey") + shelf("0") +
+                             use("veil") + shelf("1") +
+                             "LightSource \"distant\" \"point from\" [0 0 1] \"point to\" "
+                             "[0 0 0]\nWorldEnd\n";
+  expect_red(veiled, 256, 1, (.5 * .02 + .25 * .5) / std::numbers::pi);
+}
+
 TEST_P(Split, AmountsOfNothingAndAllAreTheMaterialItself) {
   const auto bins = [&](double amount) {
     return compile_text(floor_text(mix("m", "red", "green", amount), "m", shelf("0")), kernels())
@@ -398,6 +466,44 @@ TEST_P(Split, CoatsAndPanesAgreeWithTheReference) {
   options.max_depth = 5;
   options.seed = 3;
   EXPECT_GT(agreement(scene, make_plan(scene, kernels(), options), 8, 1e-2), .97);
+}
+
+/// Mixtures whose children give back unlike amounts of light, one of them by a texture's amount.
+std::string unequal_room(uint32_t width, uint32_t height) {
+  const std::string coat =
+      "\"color Ks\" [.1 .1 .1] \"float uroughness\" [.3] \"float vroughness\" [.3]";
+  return view_text("0 -2.6 .3", "0 0 -.2", 50, width, height) + kBasics +
+         "Texture \"squares\" \"float\" \"checkerboard\" \"float tex1\" [.2] \"float tex2\" [.9] "
+         "\"float uscale\" [4] \"float vscale\" [4]\n" +
+         named("dark", "[\"matte\"] \"color Kd\" [.02 .06 .04]") +
+         named("gold",
+               "[\"metal\"] \"string name\" [\"gold\"] \"float uroughness\" [.4] \"float "
+               "vroughness\" [.4]") +
+         named("varied",
+               "[\"mix\"] \"string namedmaterial1\" [\"dark\"] \"string namedmaterial2\" "
+               "[\"gold\"] \"texture amount\" [\"squares\"]") +
+         mix("two", "dark", "red", .4) + mix("three", "two", "mirror", .3) +
+         mix("veil", "dark", "hole", .5) + coating("coated", "dark", coat) +
+         coating("coated mixture", "two", coat) + use("two") + shelf("-1") + use("varied") +
+         sphere_text("-.6 0 -.6", .35) + use("coated") + sphere_text("0 .2 -.6", .35) +
+         use("coated mixture") + sphere_text("0.7 0 -.6", .3) + use("three") +
+         quad_text("-1 1 -1", "1 1 -1", "1 1 1", "-1 1 1") + use("veil") +
+         quad_text("-1 -.5 .3", "1 -.5 .3", "1 .5 .5", "-1 .5 .5") +
+         quad_text("-.5 -1 -.9", ".3 -1 -.9", ".3 -1 -.4", "-.5 -1 -.4") + "AttributeBegin\n" +
+         light_text("9 8 7") + use("black") +
+         quad_text("-.4 -.4 1", "-.4 .4 1", ".4 .4 1", ".4 -.4 1") +
+         "AttributeEnd\nLightSource \"point\" \"point from\" [-.8 -.9 .8]\nWorldEnd\n";
+}
+
+TEST_P(Split, UnequalChildrenAgreeWithTheReference) {
+  const Scene scene = compile_text(unequal_room(24, 16), kernels());
+  for (const SamplerKind sampler : {SamplerKind::kSobol, SamplerKind::kIndependent}) {
+    PlanOptions options;
+    options.sampler = sampler;
+    options.max_depth = 5;
+    options.seed = 3;
+    EXPECT_GT(agreement(scene, make_plan(scene, kernels(), options), 8, 1e-2), .97);
+  }
 }
 
 TEST_P(Split, SameBitsForEveryBatch) {

@@ -18,6 +18,7 @@ void fill_split(KernelTable& table) {
   YAT_COMPOSITE_MATERIALS(YAT_FILL_MATERIAL)
   table.choose_child = &choose_child<A>;
   table.take_rows = &take_rows<A>;
+  table.chances = &chances<A, Mix, MixParameters>;
   table.coats = &coats<A, Coating, CoatingParameters>;
   table.take_coats = &take_coats<A>;
   table.weigh_child = &weigh_child<A>;

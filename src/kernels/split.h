@@ -6,7 +6,9 @@
 //
 // One number in [0, 1) decides: what it leaves decides inside the child. The estimate stays right:
 // light sampling and the next direction both belong to the child that was chosen, and their MIS
-// weights add up to one within it. The children of a coating are not shares of one whole: what
+// weights add up to one within it. Where the children of a mixture give back unlike amounts of
+// light, the brighter one is chosen more often than its share says, and what comes to either is
+// multiplied by share over chance. The children of a coating are not shares of one whole: what
 // comes to them is divided by its chance, and what is below the coat is weakened by it (coat.h).
 
 #include "kernels/material.h"
@@ -37,6 +39,17 @@ void split(const ParameterView& table, const Surface<ConstColumn>& surfaces, boo
   }
 }
 
+/// See KernelTable::chances.
+template <class A, template <class> class Material, template <template <class> class> class Record>
+void chances(const ParameterView& table, const Surface<ConstColumn>& surfaces, const float* share,
+             float* chance, uint32_t n) noexcept {
+  for (uint32_t i = 0; i < n; i += kLanes<A>) {
+    const auto parameters = load_parameters<A, Record>(
+        table, only<A>(tail_mask<A>(i, n), load<A>(surfaces.parameter, i)), i);
+    store<A>(Material<A>::chance(parameters, load<A>(share, i)), chance, i);
+  }
+}
+
 /// See KernelTable::coats.
 template <class A, template <class> class Material, template <template <class> class> class Record>
 void coats(const ParameterView& table, const Surface<ConstColumn>& surfaces,
@@ -61,13 +74,15 @@ void take_coats(const Coat<ConstColumn>& from, const uint32_t* order, const Coat
 
 /// See KernelTable::weigh_child.
 template <class A>
-void weigh_child(const float* share, const uint32_t* order, uint32_t child,
+void weigh_child(const float* share, const float* chance, const uint32_t* order, uint32_t child,
                  const PathState<Column>& paths, uint32_t n) noexcept {
   const Float<A> one(1.f);
+  // Of the child, by that of the second.
+  const auto of_child = [&](const Float<A>& second) { return child ? second : one - second; };
   for (uint32_t row = 0; row < n; row += kLanes<A>) {
-    const Float<A> second =
-        gather<A>(share, near_rows<A>(order, row, n - row < kLanes<A> ? n - row : kLanes<A>));
-    const Float<A> weight = one / (child ? second : one - second);
+    const NearRows<A> from = near_rows<A>(order, row, n - row < kLanes<A> ? n - row : kLanes<A>);
+    const Float<A> there = share ? of_child(gather<A>(share, from)) : one;
+    const Float<A> weight = there / of_child(gather<A>(chance, from));
     store<A>(weight * load<A>(paths.throughput_r, row), paths.throughput_r, row);
     store<A>(weight * load<A>(paths.throughput_g, row), paths.throughput_g, row);
     store<A>(weight * load<A>(paths.throughput_b, row), paths.throughput_b, row);
@@ -76,15 +91,15 @@ void weigh_child(const float* share, const uint32_t* order, uint32_t child,
 
 /// See KernelTable::choose_child.
 template <class A>
-void choose_child(const float* share, const float* u, uint32_t* child, float* left,
+void choose_child(const float* chance, const float* u, uint32_t* child, float* left,
                   uint32_t n) noexcept {
   const Float<A> one(1.f), below_one(1.f - kRounding);
   for (uint32_t i = 0; i < n; i += kLanes<A>) {
-    const Float<A> second = load<A>(share, i), first = one - second, number = load<A>(u, i);
+    const Float<A> second = load<A>(chance, i), first = one - second, number = load<A>(u, i);
     const Mask<A> takes_second = number >= first;
     const Float<A> rest = select<A>(takes_second, (number - first) / second, number / first);
     store<A>(select<A>(takes_second, UInt<A>(1u), UInt<A>(0u)), child, i);
-    // Below one: with a share of 0 the second child is never taken.
+    // Below one: with a chance of 0 the second child is never taken.
     store<A>(xsimd::min(rest, below_one), left, i);
   }
 }

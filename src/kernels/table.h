@@ -345,8 +345,12 @@ struct KernelTable {
   void (*split[kMaterialKinds])(const ParameterView&, const Surface<ConstColumn>&, bool turned,
                                 float* share, uint32_t* first, uint32_t* second,
                                 uint32_t n) noexcept;
-  /// child[i] = 0 or 1 by the number u[i] in [0,1), and the number that is left, in [0,1) again.
-  void (*choose_child)(const float* share, const float* u, uint32_t* child, float* left,
+  /// Rows of mixtures with unequal children: chance[i] in [0,1], with which the second is chosen.
+  void (*chances)(const ParameterView&, const Surface<ConstColumn>&, const float* share,
+                  float* chance, uint32_t n) noexcept;
+  /// child[i] = 0 or 1, the second with this chance, by the number u[i] in [0,1), and the number
+  /// that is left, in [0,1) again.
+  void (*choose_child)(const float* chance, const float* u, uint32_t* child, float* left,
                        uint32_t n) noexcept;
   /// Rows order[0..n), dense; normals point to the other side where turned.
   void (*take_rows)(const Surface<ConstColumn>&, const PathState<ConstColumn>&, const float* u,
@@ -359,9 +363,10 @@ struct KernelTable {
   /// Rows order[0..n) of them, dense.
   void (*take_coats)(const Coat<ConstColumn>&, const uint32_t* order, const Coat<Column>&,
                      uint32_t n) noexcept;
-  /// Throughput of row i, which was order[i] and went to child 0 or 1, over the chance of that.
-  void (*weigh_child)(const float* share, const uint32_t* order, uint32_t child,
-                      const PathState<Column>&, uint32_t n) noexcept;
+  /// Throughput of row i, which was order[i] and went to child 0 or 1, over the chance of that,
+  /// times the child's share. share: of the second; null where both children are there in full.
+  void (*weigh_child)(const float* share, const float* chance, const uint32_t* order,
+                      uint32_t child, const PathState<Column>&, uint32_t n) noexcept;
 
   // -- veils: shadow rays through what lets a part of the light pass (kernels/veil.h) -----------
   /// Packs the shadow rays that are free so far; returns their number.

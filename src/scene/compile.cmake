@@ -48,6 +48,7 @@ target_sources(
           ${CMAKE_CURRENT_SOURCE_DIR}/light_maps.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/light_pictures.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/light_tree.cpp
+          ${CMAKE_CURRENT_SOURCE_DIR}/material_albedo.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/material_traits.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/parameters.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/parametric_mesh.cpp

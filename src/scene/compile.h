@@ -41,6 +41,8 @@ struct MaterialForm {
 struct MaterialSplit {
   MaterialForm child[2];
   bool turned[2] = {};  ///< what is the surface's outside is the child's inside
+  /// Of a mixture: the children give back unlike amounts of light, which they are chosen by.
+  bool unequal = false;
   auto operator<=>(const MaterialSplit&) const = default;
 };
 /// Materials may be made of others this many times over.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/exponential.hpp>
 #include <iterator>
 
 #include "kernels/materials/car_paint.h"
@@ -94,10 +95,13 @@ MaterialRef build_glossycoating(MaterialCompiler& compiler, Parameters& p) {
   const MaterialRef lobe = compiler.add_rough<GlossyParameters>(
       MaterialKind::kGlossy, {0, 0, 0, c.ks.x, c.ks.y, c.ks.z, c.ka.x, c.ka.y, c.ka.z, c.depth,
                               c.index, c.rough.u, c.rough.v, 0, multibounce});
-  return compiler.add_split<CoatingParameters>(
+  MaterialRef made = compiler.add_split<CoatingParameters>(
       MaterialKind::kCoating,
-      {c.ks.x, c.ks.y, c.ks.z, c.ka.x, c.ka.y, c.ka.z, c.depth, c.index, lobe.row, base->row}, lobe,
-      *base, false, false);
+      {c.ks.x, c.ks.y, c.ks.z, c.ka.x, c.ka.y, c.ka.z, c.depth, c.index, brightness(*base),
+       lobe.row, base->row},
+      lobe, *base, false, false);
+  made.albedo = coated_albedo(c.ks, c.index, glm::exp(-2 * c.depth * c.ka) * base->albedo);
+  return made;
 }
 
 MaterialRef build_glossy_lossy(MaterialCompiler& compiler, Parameters& p) {

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 
 #include "kernels/materials/double_side.h"
 #include "kernels/materials/mix.h"
@@ -11,6 +13,10 @@
 namespace yat {
 
 namespace {
+
+/// Children whose brightness differs by less are chosen by their shares alone: what the weights
+/// would gain is below a hundredth.
+constexpr float kAlike = 1.25f;
 
 /// What LuxRender has for a material that cannot be built.
 MaterialRef not_built(MaterialCompiler& compiler, Parameters& p) {
@@ -29,8 +35,13 @@ MaterialRef build_mix(MaterialCompiler& compiler, Parameters& p) {
   if (!varies && amount == 0) return *first;
   if (!varies && amount == 1) return *second;
   if (first->passing == Passing::kAll && second->passing == Passing::kAll) return *first;
-  return compiler.add_split<MixParameters>(
-      MaterialKind::kMix, {float(amount), first->row, second->row}, *first, *second, false, false);
+  const float ratio = brightness(*second) / brightness(*first);
+  const bool unequal = std::max(ratio, 1 / ratio) > kAlike;
+  MaterialRef made = compiler.add_split<MixParameters>(
+      MaterialKind::kMix, {float(amount), ratio, first->row, second->row}, *first, *second, false,
+      false, unequal);
+  made.albedo = glm::mix(first->albedo, second->albedo, float(amount));
+  return made;
 }
 
 MaterialRef build_doubleside(MaterialCompiler& compiler, Parameters& p) {
@@ -40,9 +51,11 @@ MaterialRef build_doubleside(MaterialCompiler& compiler, Parameters& p) {
   const bool front_for_back = p.flag("usefrontforback", true);
   if (!front || !back) return not_built(compiler, p);
   if (front->passing == Passing::kAll && back->passing == Passing::kAll) return *front;
-  return compiler.add_split<DoubleSideParameters>(MaterialKind::kDoubleSide,
-                                                  {front->row, back->row}, *front, *back,
-                                                  !front_for_front, front_for_back);
+  MaterialRef made =
+      compiler.add_split<DoubleSideParameters>(MaterialKind::kDoubleSide, {front->row, back->row},
+                                               *front, *back, !front_for_front, front_for_back);
+  made.albedo = glm::max(front->albedo, back->albedo);
+  return made;
 }
 
 /// The uppermost of the layers that hide most.

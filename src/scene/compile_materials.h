@@ -21,6 +21,16 @@ struct VolumesAround {
   auto operator<=>(const VolumesAround&) const = default;
 };
 
+/// About what a material gives back of the light that it gets, seen head-on, in bands, by a row of
+/// its kind; half of what passes unturned; 1 where nothing is known, and of what is made of others.
+glm::vec3 about_albedo(MaterialKind kind, const uint32_t* row);
+/// The same of a coat with the reflectance ks head-on, or ks times that of a refractive index above
+/// 0, over a base of this albedo.
+glm::vec3 coated_albedo(const glm::vec3& ks, float index, const glm::vec3& base);
+/// One number for that, by which children are chosen: that of the brightest band, at least an
+/// eighth, as it may be wrong, and at most 1.
+float brightness(const MaterialRef& material);
+
 /// Turns material entries into parameter rows, each once.
 class MaterialCompiler {
  public:
@@ -60,7 +70,10 @@ class MaterialCompiler {
     const Passing passing = traits.see_through ? Passing::kAll
                             : traits.veil      ? Passing::kVeil
                                                : Passing::kSolid;
-    return {.kind = kind, .row = row, .passing = passing};
+    return {.kind = kind,
+            .row = row,
+            .passing = passing,
+            .albedo = about_albedo(kind, &words[size_t(row) * row_words<Record>])};
   }
   /// The same for a material with a lobe of two roughnesses.
   template <template <template <class> class> class Record>
@@ -80,12 +93,15 @@ class MaterialCompiler {
                  double most);
   /// The material that a string parameter names. Empty, and an error, if there is none.
   std::optional<MaterialRef> child(Parameters& parameters, std::string_view name);
-  /// A material of `kind`, made of two others; `turned`: see MaterialSplit.
+  /// A material of `kind`, made of two others; `turned`, `unequal`: see MaterialSplit. Its albedo
+  /// is the caller's.
   template <template <template <class> class> class Record>
   MaterialRef add_split(MaterialKind kind, const Record<Value>& record, const MaterialRef& first,
-                        const MaterialRef& second, bool first_turned, bool second_turned) {
+                        const MaterialRef& second, bool first_turned, bool second_turned,
+                        bool unequal = false) {
     MaterialRef made = add<Record>(kind, record);
-    made.split = split_row({{form_of(first), form_of(second)}, {first_turned, second_turned}});
+    made.split =
+        split_row({{form_of(first), form_of(second)}, {first_turned, second_turned}, unequal});
     made.passing = first.passing == second.passing ? first.passing : Passing::kVeil;
     made.tangents = first.tangents || second.tangents;
     made.uv = std::max(first.uv, second.uv);

@@ -87,6 +87,8 @@ struct MaterialRef {
   uint32_t split = kNone;     ///< row of Scene::splits
   Passing passing = Passing::kSolid;
   uint32_t id = 0;  ///< SurfaceIds::material
+  /// About what it gives back of the light that it gets, in bands; 1 where nothing is known.
+  glm::vec3 albedo{1.f};
 };
 
 // ---- Shapes (lxs 5) --------------------------------------------------------------------------

@@ -83,7 +83,7 @@ std::string light_kernels(const Plan& plan) {
 std::string describe_material(const Plan& plan, const ShadePlan& material) {
   const std::string_view name = material_traits(material.material).name;
   if (material.splits)
-    return fmt::format(", split {} [{}] [{}]", name,
+    return fmt::format(", split {}{} [{}] [{}]", name, material.unequal ? " by brightness" : "",
                        describe_material(plan, plan.children[material.child[0]]).substr(2),
                        describe_material(plan, plan.children[material.child[1]]).substr(2));
   std::string numbers;

@@ -26,6 +26,7 @@ void need_material(const ShadePlan& plan, size_t groups, const KernelTable& k) {
   else
     need(k.shade[uint32_t(plan.material)], k, "shade");
   if (plan.sample_lights && groups > 1) need(k.connect[uint32_t(plan.material)], k, "connect");
+  if (plan.unequal) need(k.chances && k.weigh_child, k, "chances");
   if (plan.coats) need(k.coats && k.take_coats && k.weigh_child, k, "coats");
   if (plan.program != kNone) need(k.spread_parameters && k.make_derivatives, k, "textures");
 }
@@ -141,6 +142,7 @@ ShadePlan plan_material(const Scene& scene, const MaterialForm& form, bool roule
   if (out.splits) {
     const MaterialSplit& split = scene.splits[form.split];
     plan.split_levels = std::max(plan.split_levels, level);
+    out.unequal = split.unequal;
     for (int c = 0; c < 2; ++c) {
       const ShadePlan child = plan_material(scene, split.child[c], roulette, level + 1, plan);
       out.child[c] = uint32_t(plan.children.size());

@@ -33,6 +33,7 @@ struct ShadePlan {
   bool splits = false;         ///< rows go on to the children, and nothing else is done
   bool veil = false;           ///< its lobe is decided anew at every crossing
   bool solid = false;          ///< no light passes it unturned
+  bool unequal = false;        ///< see MaterialSplit
   bool coats = false;          ///< the first child lies over the second (kernels/coat.h)
   uint32_t child[2] = {};      ///< rows of Plan::children
   bool turned[2] = {};         ///< see MaterialSplit

@@ -78,6 +78,7 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
                   emission_factor(scene, hit->light, *hit, wo, width) *
                   weight_of_met(plan.light_sampling, scattered_pdf, sampled);
     }
+    throughput *= chosen.weight;
     if (material_traits(material).see_through) {
       ray.origin = hit->position +
                    (glm::dot(hit->ng, ray.direction) > 0 ? 1.0 : -1.0) * hit->offset * hit->ng;
@@ -100,7 +101,6 @@ glm::dvec3 reference_sample(const Scene& scene, const Plan& plan, uint32_t x, ui
     const Bsdf bsdf(material,
                     material_parameters(scene, material, chosen.program, chosen.row, *hit, width),
                     {axes.to_local(wo), outside, hit->t + passed});
-    throughput *= chosen.weight;
     const auto coat = [&](const Vec& wi) {
       return chosen.coat ? chosen.coat->passes(axes.to_local(wo), wi) : Vec(1.0);
     };

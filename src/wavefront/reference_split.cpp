@@ -13,7 +13,8 @@ namespace yat::reference {
 namespace {
 
 struct Children {
-  float share;  ///< of the second
+  float share;   ///< of the second; of a coating both are there in full
+  float chance;  ///< with which the second is chosen
   uint32_t row[2];
   std::optional<CoatOver> coat = {};  ///< over the second
 };
@@ -31,7 +32,9 @@ Children children(const Scene& scene, const MaterialForm& form, uint32_t row, co
       material_parameters(scene, form.kind, form.program, row, point, width);
   if (form.kind == MaterialKind::kMix) {
     const auto p = record_of<MixParameters>(words);
-    return {std::clamp(p.amount, 0.f, 1.f), {p.first, p.second}};
+    const float share = std::clamp(p.amount, 0.f, 1.f), bright = share * p.ratio;
+    const float chance = scene.splits[form.split].unequal ? bright / (1 - share + bright) : share;
+    return {share, chance, {p.first, p.second}};
   }
   if (form.kind == MaterialKind::kCoating) {
     const auto p = record_of<CoatingParameters>(words);
@@ -40,14 +43,16 @@ Children children(const Scene& scene, const MaterialForm& form, uint32_t row, co
                         Vec(p.ka_r, p.ka_g, p.ka_b) * double(p.depth), outside};
     const Vec s = coat.r0 + (1. - coat.r0) * std::pow(1 - cos, 5);
     const double lobe = largest(s),
-                 base = largest(glm::exp(-coat.absorbs * (1 + 1 / cos)) * (1. - s));
+                 base =
+                     double(p.base) * largest(glm::exp(-coat.absorbs * (1 + 1 / cos)) * (1. - s));
     const double share = !outside || lobe == 0 ? 1
                          : base == 0           ? 0
                                                : std::clamp(base / (lobe + base), .125, .875);
-    return {float(share), {p.first, p.second}, coat};
+    return {1, float(share), {p.first, p.second}, coat};
   }
   const auto p = record_of<DoubleSideParameters>(words);
-  return {outside ? 0.f : 1.f, {p.first, p.second}};
+  const float share = outside ? 0.f : 1.f;
+  return {share, share, {p.first, p.second}};
 }
 
 /// Expected share of light that passes a material in the direction -wo.
@@ -95,13 +100,13 @@ ChosenMaterial choose_material(const Scene& scene, const Point& point, const Vec
     const MaterialSplit& split = scene.splits[form.split];
     const Children of =
         children(scene, form, chosen.row, point, width, outside != chosen.turned, cos);
-    const float first = 1 - of.share;
+    const float first = 1 - of.chance;
     const int c = u >= first;
-    u = std::fmin(c ? (u - first) / of.share : u / first, 1 - 0x1p-24f);
-    if (form.kind == MaterialKind::kCoating) {
-      chosen.weight /= double(c ? of.share : first);
-      if (c) chosen.coat = of.coat;
-    }
+    const float chance = c ? of.chance : first;
+    u = std::fmin((c ? u - first : u) / chance, 1 - 0x1p-24f);
+    const bool coats = form.kind == MaterialKind::kCoating;
+    chosen.weight *= double(coats ? 1 : c ? of.share : 1 - of.share) / double(chance);
+    if (coats && c) chosen.coat = of.coat;
     form = split.child[c];
     chosen.kind = form.kind;
     chosen.program = form.program;

@@ -372,7 +372,12 @@ void Worker::shade_split(const ShadePlan& plan, const ChunkRows& rows, const flo
   kernels_.split[uint32_t(plan.material)](parameters, rows.surfaces, false, split.share.data(),
                                           split.parameter[0].data(), split.parameter[1].data(),
                                           rows.n);
-  kernels_.choose_child(split.share.data(), u, split.child.data(), split.left.data(), rows.n);
+  const float* chance = split.share.data();
+  if (plan.unequal) {
+    kernels_.chances(parameters, rows.surfaces, split.share.data(), split.chance.data(), rows.n);
+    chance = split.chance.data();
+  }
+  kernels_.choose_child(chance, u, split.child.data(), split.left.data(), rows.n);
   if (plan.coats) kernels_.coats(parameters, rows.surfaces, split.own_coats.columns(), rows.n);
   uint32_t taken[2] = {};
   for (uint32_t i = 0; i < rows.n; ++i) {
@@ -405,9 +410,9 @@ void Worker::shade_split(const ShadePlan& plan, const ChunkRows& rows, const flo
         split.seen_weight[i] = rows.seen_weight[split.order[c][i]];
       own.seen_weight = split.seen_weight.data();
     }
-    if (plan.coats)
-      kernels_.weigh_child(split.share.data(), split.order[c].data(), c, split.paths.columns(),
-                           taken[c]);
+    if (plan.unequal || plan.coats)
+      kernels_.weigh_child(plan.coats ? nullptr : split.share.data(), chance, split.order[c].data(),
+                           c, split.paths.columns(), taken[c]);
     const Coat<ConstColumn> over = plan.coats && c ? split.own_coats.view() : rows.coats;
     if (over.outside) {
       kernels_.take_coats(over, split.order[c].data(), split.coats.columns(), taken[c]);

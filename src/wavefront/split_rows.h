@@ -23,7 +23,7 @@ struct SplitRows {
   AlignedArray<float> seen_weight{kChunkRows};  ///< of one child: see Worker::ChunkRows
   // Of the parent's rows:
   Table<Coat> own_coats{kChunkRows};
-  AlignedArray<float> share{kChunkRows}, left{kChunkRows};
+  AlignedArray<float> share{kChunkRows}, chance{kChunkRows}, left{kChunkRows};
   AlignedArray<uint32_t> child{kChunkRows};
   // Per child:
   AlignedArray<uint32_t> parameter[2]{AlignedArray<uint32_t>(kChunkRows),
@@ -36,7 +36,7 @@ struct SplitRows {
   size_t bytes() const {
     size_t sum = surfaces.bytes() + paths.bytes() + tangents.bytes() + coats.bytes() +
                  own_coats.bytes() + u.bytes() + hit.bytes() + seen_weight.bytes() + share.bytes() +
-                 left.bytes() + child.bytes();
+                 chance.bytes() + left.bytes() + child.bytes();
     for (int c = 0; c < 2; ++c) sum += parameter[c].bytes() + order[c].bytes() + weight[c].bytes();
     return sum;
   }

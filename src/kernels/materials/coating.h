@@ -14,8 +14,9 @@ struct CoatingParameters {
   Of<float> ka_r, ka_g, ka_b;  ///< absorption [1/m], >= 0
   Of<float> depth;             ///< thickness [m], >= 0
   Of<float> index;             ///< refractive index that Ks counts times; 0: in full
+  Of<float> base;              ///< about the share of light that the base gives back, 0..1
   Of<uint32_t> first, second;  ///< rows of the lobe's and of the base's own tables
-  YAT_FIELDS(ks_r, ks_g, ks_b, ka_r, ka_g, ka_b, depth, index, first, second)
+  YAT_FIELDS(ks_r, ks_g, ks_b, ka_r, ka_g, ka_b, depth, index, base, first, second)
 };
 static_assert(all_fields_listed<CoatingParameters>);
 
@@ -46,16 +47,16 @@ struct Coating {
     return c;
   }
 
-  /// Of the base: what its light keeps through the coat, if it were white, against what the coat
-  /// reflects. An eighth is left to each side that brings anything, as these are estimates.
+  /// Of the base: what its light keeps through the coat against what the coat reflects. An eighth
+  /// is left to each side that brings anything, as these are estimates.
   static YAT_INLINE Float<A> share(const Parameters& p, const BsdfView<A>& view) {
     const Float<A> one(1.f), zero(0.f), least(.125f);
     const Spectrum<A> reflected =
         coat_fresnel<A>(coat_reflectance<A>({p.ks_r, p.ks_g, p.ks_b}, p.index), view.wo.z);
     const Float<A> lobe = largest(reflected);
-    const Float<A> base =
-        largest(coat_absorption<A>({p.ka_r, p.ka_g, p.ka_b}, p.depth, one + one / view.wo.z) *
-                one_minus<A>(reflected));
+    const Float<A> base = p.base * largest(coat_absorption<A>({p.ka_r, p.ka_g, p.ka_b}, p.depth,
+                                                              one + one / view.wo.z) *
+                                           one_minus<A>(reflected));
     const Float<A> share = base / (lobe + base);
     const Float<A> used = xsimd::select(base > zero, xsimd::max(share, least), zero);
     return xsimd::select(view.outside & (lobe > zero), xsimd::min(used, one - least), one);

@@ -9,8 +9,9 @@ namespace yat {
 template <template <class> class Of>
 struct MixParameters {
   Of<float> amount;            ///< share of the second material, clamped to 0..1
+  Of<float> ratio;             ///< brightness of the second over that of the first, > 0
   Of<uint32_t> first, second;  ///< rows of the children's own tables
-  YAT_FIELDS(amount, first, second)
+  YAT_FIELDS(amount, ratio, first, second)
 };
 static_assert(all_fields_listed<MixParameters>);
 
@@ -32,6 +33,12 @@ struct Mix {
   using Parameters = MixParameters<Lanes<A>::template Of>;
   static YAT_INLINE Float<A> share(const Parameters& p, const BsdfView<A>&) {
     return xsimd::min(xsimd::max(p.amount, Float<A>(0.f)), Float<A>(1.f));
+  }
+  /// With which the second child is chosen where the children are unequal: in proportion to share
+  /// times brightness.
+  static YAT_INLINE Float<A> chance(const Parameters& p, const Float<A>& share) {
+    const Float<A> second = share * p.ratio;
+    return second / (Float<A>(1.f) - share + second);
   }
 };
 
