@@ -1,6 +1,6 @@
 #pragma once
 // Analytic shapes between their statement and their row: each in a space of its own of about unit
-// size (ShapeRow in scene/compiled.h), and how that lies in the statement's object space.
+// size (ShapeRow in scene/primitive_rows.h), and how that lies in the statement's object space.
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>

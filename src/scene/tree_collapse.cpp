@@ -1,4 +1,4 @@
-// Binary tree to the 8-wide boxed tree of scene/compiled.h: how many rows each subtree takes, then
+// Binary tree to the 8-wide boxed tree of scene/tree_view.h: how many rows each subtree takes, then
 // all rows at once.
 
 #include <cstring>

@@ -11,7 +11,7 @@
 //   sample(row, u, v)            a point of the surface, and 1 / density there per area
 //   inverse_density(row, p)      the same 1 / density for a point from elsewhere
 //
-// all in the shape's own space (scene/compiled.h).
+// all in the shape's own space (scene/primitive_rows.h).
 
 #include "kernels/sampling.h"
 #include "kernels/sphere_entry.h"
