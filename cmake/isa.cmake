@@ -21,7 +21,8 @@ function(yat_add_isa name)
                                             xsimd=xsimd_${name})
   target_compile_options(${lib} PRIVATE ${ARG_FLAGS} -fno-trapping-math)
   # GCC takes the undefined lanes of its own intrinsics for a mistake.
-  target_compile_options(${lib} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  target_compile_options(${lib} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized> $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized>)
   # A sanitized or debug kernel is still a kernel: -O1 at least, or a test takes minutes.
   target_compile_options(${lib} PRIVATE $<$<CONFIG:Debug>:-O1>
                                         $<$<NOT:$<CONFIG:Debug>>:-O3>)
