@@ -227,10 +227,15 @@ void add_split(const KernelTable& table) {
       Table<PathState> paths_out(kRows);
       Table<Coat> coats(kRows), coats_out(kRows);
       const bool coating = MaterialKind(kind) == MaterialKind::kCoating;
+      // A mixture whose children are unlike, which is the dearer way.
+      const bool mixture = MaterialKind(kind) == MaterialKind::kMix;
+      AlignedArray<float> chance(kRows);
       time_rows(state, kRows, [&] {
         table.split[kind](own.parameters, surfaces, false, share.data(), first.data(),
                           second.data(), kRows);
-        table.choose_child(share.data(), own.rows->randoms.view().lobe, child.data(), left.data(),
+        if (mixture) table.chances(own.parameters, surfaces, share.data(), chance.data(), kRows);
+        const float* const chosen_by = mixture ? chance.data() : share.data();
+        table.choose_child(chosen_by, own.rows->randoms.view().lobe, child.data(), left.data(),
                            kRows);
         if (coating) table.coats(own.parameters, surfaces, coats.columns(), kRows);
         uint32_t taken[2] = {};
@@ -241,9 +246,11 @@ void add_split(const KernelTable& table) {
         for (uint32_t c = 0; c < 2; ++c) {
           table.take_rows(surfaces, paths, left.data(), order[c].data(), false,
                           surfaces_out.columns(), paths_out.columns(), u.data(), taken[c]);
-          if (!coating) continue;
-          table.weigh_child(share.data(), order[c].data(), c, paths_out.columns(), taken[c]);
-          if (c) table.take_coats(coats.view(), order[c].data(), coats_out.columns(), taken[c]);
+          if (coating || mixture)
+            table.weigh_child(mixture ? share.data() : nullptr, chosen_by, order[c].data(), c,
+                              paths_out.columns(), taken[c]);
+          if (coating && c)
+            table.take_coats(coats.view(), order[c].data(), coats_out.columns(), taken[c]);
         }
       });
     });

@@ -31,9 +31,9 @@ constexpr OptionText kRoulette = {
     "vertex from which on dim paths end by chance, brighter survivors making up for it; off: "
     "paths go on to --max-depth"};
 constexpr OptionText kShadowRoulette = {
-    "--shadow-roulette", "SHARE|off", "off",
+    "--shadow-roulette", "SHARE|off", "0.2",
     "shadow rays that may bring less than this share of the picture's level are traced by chance, "
-    "those traced making up for it; a pilot of 4096 paths tells the level"};
+    "those traced making up for it; a pilot of 1024 paths tells the level"};
 constexpr OptionText kTextureCache = {
     "--texture-cache", "MB", "2048",
     "most memory for the texels of images; the finest levels are left out beyond it"};

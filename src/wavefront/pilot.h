@@ -7,14 +7,14 @@
 namespace yat {
 
 /// Windows of the picture that the pilot looks at, and pixels along the edge of one.
-inline constexpr uint32_t kPilotWindows = 64, kPilotWindowEdge = 8;
+inline constexpr uint32_t kPilotWindows = 64, kPilotWindowEdge = 4;
 
-/// Mean of the largest band of what a path brings, in magnitude [radiance], to some percent: by one
-/// path through each pixel of kPilotWindows windows (4096 paths), which are spread over the whole
-/// picture, a window in each cell of a grid of 8 x 8. The environment is not shown to the camera,
-/// and what is brighter than 8 times the median of all that is not black counts as that: lamps and
-/// rare bright paths tell nothing of the others. Rounded to 6 bits, so that instruction sets, whose
-/// roundings differ, agree nearly always.
+/// Mean of the largest band of what a path brings, in magnitude [radiance], to about a tenth: by
+/// one path through each pixel of kPilotWindows windows (1024 paths), which are spread over the
+/// whole picture, a window in each cell of a grid of 8 x 8. The environment is not shown to the
+/// camera, and what is brighter than 8 times the median of all that is not black counts as that:
+/// lamps and rare bright paths tell nothing of the others. Rounded to 6 bits, so that instruction
+/// sets, whose roundings differ, agree nearly always.
 ///
 /// Returns 0 if no path brings light, and always a finite number. Depends on scene, plan and seed
 /// alone; not on the crop window or the sampler (invariant 3). Its random numbers are others than

@@ -24,7 +24,7 @@ enum class LightSampling {
 inline constexpr uint32_t kNoRoulette = 0xffffffffu;
 /// PlanOptions::shadow_roulette where all shadow rays are traced, and the value that is usual.
 inline constexpr double kNoShadowRoulette = 0;
-inline constexpr double kUsualShadowRoulette = kNoShadowRoulette;
+inline constexpr double kUsualShadowRoulette = .2;
 
 /// What is done with surfaces of one material.
 struct ShadePlan {
