@@ -10,11 +10,6 @@ namespace yat::bench {
 
 namespace {
 
-void show_lanes(benchmark::State& state, const KernelTable& table, const LaneCount& lanes) {
-  if (lanes.steps)
-    state.counters["lanes"] = double(lanes.rows) / (double(lanes.steps) * table.lanes);
-}
-
 /// Rays that the scene's own triangles have not stopped: hits are put back before each call.
 void add_closest(const KernelTable& table) {
   const auto kernel = table.intersect_instances;

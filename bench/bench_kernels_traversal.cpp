@@ -93,8 +93,7 @@ void add_closest(const KernelTable& table) {
           time_rows(state, n, [&] {
             lanes = kernel(in.view.geometry.tree, rays.view(), hits.columns(), n, scratch);
           });
-          if (lanes.steps)
-            state.counters["lanes"] = double(lanes.rows) / (double(lanes.steps) * table.lanes);
+          show_lanes(state, table, lanes);
         });
 }
 
@@ -117,8 +116,7 @@ void add_shadow(const KernelTable& table) {
       time_rows(state, n, [&] {
         lanes = kernel(in.view.geometry.tree, rays.view(), occluded.data(), n, scratch);
       });
-      if (lanes.steps)
-        state.counters["lanes"] = double(lanes.rows) / (double(lanes.steps) * table.lanes);
+      show_lanes(state, table, lanes);
     });
   }
 }

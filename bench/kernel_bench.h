@@ -45,6 +45,12 @@ void time_rows(benchmark::State& state, uint32_t rows, Call&& call) {
   time_rows(state, rows, [] {}, std::forward<Call>(call));
 }
 
+/// The share of lanes that had work, where the kernel counted them.
+inline void show_lanes(benchmark::State& state, const KernelTable& table, const LaneCount& lanes) {
+  if (lanes.steps)
+    state.counters["lanes"] = double(lanes.rows) / (double(lanes.steps) * table.lanes);
+}
+
 /// Registers "kernel/isa" or "kernel/isa/active:75".
 template <class F>
 void add_benchmark(const std::string& kernel, const KernelTable& table, F f) {
