@@ -3,30 +3,34 @@
 
 #include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render_scenes.h"
 
 namespace yat {
 
-/// Writes a PPM of 8-bit texels (3 per texel, rows from the top) and returns its path.
-inline std::string write_ppm(const std::string& name, uint32_t width, uint32_t height,
-                             const std::vector<uint8_t>& texels) {
+/// Writes a file for scenes and returns its path. Tests run side by side: whoever reads sees a
+/// whole file.
+inline std::string write_for_scenes(const std::string& name, std::string_view content) {
   const std::filesystem::path folder(YAT_TEST_OUTPUT_DIR);
   std::filesystem::create_directories(folder);
   const std::string path = (folder / name).string();
-  // Tests run side by side: whoever reads sees a whole file.
   const std::string own = path + "." + std::to_string(::getpid());
-  std::FILE* file = std::fopen(own.c_str(), "wb");
-  if (!file) return {};
-  std::fprintf(file, "P6\n%u %u\n255\n", width, height);
-  std::fwrite(texels.data(), 1, texels.size(), file);
-  std::fclose(file);
+  std::ofstream(own, std::ios::binary) << content;
   std::filesystem::rename(own, path);
   return path;
+}
+
+/// A PPM of 8-bit texels (3 per texel, rows from the top).
+inline std::string write_ppm(const std::string& name, uint32_t width, uint32_t height,
+                             const std::vector<uint8_t>& texels) {
+  std::string content = "P6\n" + std::to_string(width) + " " + std::to_string(height) + "\n255\n";
+  content.append(texels.begin(), texels.end());
+  return write_for_scenes(name, content);
 }
 
 /// Dim everywhere, with a bright texel and a black band: hard to sample.

@@ -2,7 +2,6 @@
 // daylight against the numbers of its models.
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
 #include "environment_scenes.h"
@@ -253,10 +252,10 @@ TEST_P(LightMaps, MappedPointKeepsItsFlux) {
 }
 
 TEST_P(LightMaps, ProfileShinesAsItsAngles) {
-  const std::string path = std::string(YAT_TEST_OUTPUT_DIR) + "/lamp.ies";
-  std::ofstream(path)
-      << "IESNA:LM-63-1995\n[TEST] none\nTILT=NONE\n1 1000 2 5 2 1 2 0 0 0\n1 1 50\n"
-         "0 30 60 90 180\n0 180\n10 8 4 0 0\n20 16 8 0 0\n";
+  const std::string path =
+      write_for_scenes("lamp.ies",
+                       "IESNA:LM-63-1995\n[TEST] none\nTILT=NONE\n1 1000 2 5 2 1 2 0 0 0\n1 1 50\n"
+                       "0 30 60 90 180\n0 180\n10 8 4 0 0\n20 16 8 0 0\n");
   const auto lamp = [&](const std::string& more) {
     return lit_by("LightSource \"point\" \"string iesname\" [\"" + path +
                   "\"] \"point from\" [0 0 4] " + more + "\n");

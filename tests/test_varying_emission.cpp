@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 
 #include "environment_scenes.h"
@@ -246,13 +244,10 @@ std::string lamp_picture() {
 }
 /// Another one in each quarter of the azimuth.
 std::string lamp_profile() {
-  std::filesystem::create_directories(YAT_TEST_OUTPUT_DIR);
-  const std::string path = std::string(YAT_TEST_OUTPUT_DIR) + "/area_lamp.ies";
-  const std::string own = path + "." + std::to_string(::getpid());
-  std::ofstream(own) << "IESNA:LM-63-1995\n[TEST] none\nTILT=NONE\n1 1000 1 3 5 1 2 0 0 0\n1 1 50\n"
-                        "0 45 90\n0 90 180 270 360\n10 8 1\n10 4 1\n10 2 0\n10 6 2\n10 8 1\n";
-  std::filesystem::rename(own, path);
-  return path;
+  return write_for_scenes(
+      "area_lamp.ies",
+      "IESNA:LM-63-1995\n[TEST] none\nTILT=NONE\n1 1000 1 3 5 1 2 0 0 0\n1 1 50\n"
+      "0 45 90\n0 90 180 270 360\n10 8 1\n10 4 1\n10 2 0\n10 6 2\n10 8 1\n");
 }
 
 TEST_P(VaryingEmission, PathsAgreeWithTheOracle) {
