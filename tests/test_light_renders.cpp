@@ -56,6 +56,8 @@ TEST_P(LightRenders, EveryLightIsSampledWhereAllAreAsked) {
     EXPECT_EQ(group.kernel, row.kind < kPlainLightKinds ? row.kind : uint32_t(kAnyLights));
   }
   for (const BinPlan& bin : plan.bins) EXPECT_FALSE(bin.draw_choice);
+  const std::string text = describe_plan(plan, scene);
+  EXPECT_NE(text.find("draw choice: every light is asked"), std::string::npos) << text;
   EXPECT_EQ(make_plan(scene_of(1, ""), kernels(), {}).light_groups.size(), 1u);
   // Without light samples there are none.
   PlanOptions options;

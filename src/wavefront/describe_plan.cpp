@@ -228,12 +228,14 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
             : !plan.transport.max_depth ? "paths end at their first vertex"
                                         : "light is found by chance (--light-sampling bsdf)");
   else
-    skipped(
-        any_bin([](const ShadePlan& b) { return b.draw_choice; }) ||
-            (scene.lights.size() > 1 && !plan.light_by_place),
-        "draw choice",
-        plan.light_by_place ? "the number of the place chooses the light" : "there is one light");
-  skipped(plan.light_tree || !plan.lights, "light tree", "lights are chosen by power");
+    skipped(any_bin([](const ShadePlan& b) { return b.draw_choice; }) ||
+                (scene.lights.size() > 1 && !plan.light_by_place && plan.light_groups.size() == 1),
+            "draw choice",
+            plan.light_by_place            ? "the number of the place chooses the light"
+            : plan.light_groups.size() > 1 ? "every light is asked"
+                                           : "there is one light");
+  skipped(plan.light_tree || !plan.lights, "light tree",
+          plan.light_groups.size() > 1 ? "every light is asked" : "lights are chosen by power");
   skipped(any_bin([](const ShadePlan& b) { return b.draw_lobe; }), "draw lobe",
           "no material chooses between lobes");
   skipped(any_bin([](const ShadePlan& b) { return b.draw_roulette; }), "draw roulette",
