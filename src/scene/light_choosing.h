@@ -1,5 +1,6 @@
 #pragma once
-// How lights are chosen: an alias table by power, or of equal chances, or the light tree.
+// How lights are chosen: an alias table by power, or of equal chances, or the light tree; or none
+// is, and surfaces ask all.
 
 #include <vector>
 

@@ -77,7 +77,7 @@ struct LightRow {
   Of<float> extra;
   Of<float> radiance_r, radiance_g, radiance_b;  ///< bands
   /// With which sample_lights chooses this row by power; where there is a light tree, only among
-  /// those without a place, and 1 for the others.
+  /// those without a place, and 1 for the others; 1 where surfaces ask all lights.
   Of<float> probability;
   Of<uint32_t> kind;  ///< LightKind
   Of<float> further;  ///< >= 0

@@ -2,6 +2,7 @@
 // chosen by it. Nothing depends on it but noise.
 
 #include <algorithm>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 
@@ -118,10 +119,15 @@ glm::vec3 about_albedo(MaterialKind kind, const uint32_t* row) {
       return .5f * tinted<ArchitecturalGlassParameters>(row);
     case MaterialKind::kNull:
       return glm::vec3(.5f);
-    // Velvet's definition does not keep to its Kd.
-    default:
-      return glm::vec3(1.f);
+    // Velvet's definition does not keep to its Kd; what is made of others is asked of these.
+    case MaterialKind::kVelvet:
+    case MaterialKind::kMix:
+    case MaterialKind::kDoubleSide:
+    case MaterialKind::kCoating:
+    case MaterialKind::kCount:
+      break;
   }
+  return glm::vec3(1.f);
 }
 
 float brightness(const MaterialRef& material) {
