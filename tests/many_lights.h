@@ -75,6 +75,7 @@ inline Scene compile_lamps(const std::string& text, const KernelTable& kernels,
                            LightChoosing choosing, uint32_t threads = 1) {
   Diagnostics diagnostics(fail_at_warnings);
   CompileOptions options;
+  options.ids = true;  // for feature pictures
   options.block_width = kernels.lanes;
   options.light_choice = choosing;
   ThreadPool pool(threads);

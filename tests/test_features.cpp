@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "many_lights.h"
 #include "per_isa.h"
 #include "render_scenes.h"
 
@@ -201,32 +202,37 @@ TEST_P(Features, FlatMeshesKeepTextureCoordinatesWhereAskedFor) {
 }
 
 TEST_P(Features, PartsOfTheLightAddUp) {
-  const Scene scene = compile_text(everything_text(kSide, kSide), kernels());
-  const Plan plan = make_plan(scene, kernels(), {});
-  const Pictures p = render_features(scene, plan, 32);
-  const auto direct = p.of(Feature::kDirect), indirect = p.of(Feature::kIndirect),
-             all = p.film.resolve();
-  const std::vector<float> plain = render_film(scene, plan, 0, 32).resolve();
-  double sum = 0;
-  for (size_t i = 0; i < all.size(); ++i) {
-    EXPECT_NEAR(direct[i] + indirect[i], all[i], 1e-5f * (1 + std::fabs(all[i])));
-    EXPECT_NEAR(all[i], plain[i], 1e-5f * (1 + std::fabs(plain[i])));
-    sum += double(indirect[i]);
+  for (const LightChoosing choosing : {LightChoosing::kAuto, LightChoosing::kAll}) {
+    const Scene scene = compile_lamps(everything_text(kSide, kSide), kernels(), choosing);
+    ASSERT_EQ(scene.every_light, choosing == LightChoosing::kAll);
+    const Plan plan = make_plan(scene, kernels(), {});
+    const Pictures p = render_features(scene, plan, 32);
+    const auto direct = p.of(Feature::kDirect), indirect = p.of(Feature::kIndirect),
+               all = p.film.resolve();
+    const std::vector<float> plain = render_film(scene, plan, 0, 32).resolve();
+    double sum = 0;
+    for (size_t i = 0; i < all.size(); ++i) {
+      EXPECT_NEAR(direct[i] + indirect[i], all[i], 1e-5f * (1 + std::fabs(all[i])));
+      EXPECT_NEAR(all[i], plain[i], 1e-5f * (1 + std::fabs(plain[i])));
+      sum += double(indirect[i]);
+    }
+    EXPECT_GT(sum, 0);
   }
-  EXPECT_GT(sum, 0);
 }
 
 TEST_P(Features, DirectLightIsThatOfDepthOne) {
-  const Scene scene = compile_text(everything_text(kSide, kSide), kernels());
-  PlanOptions one;
-  one.max_depth = 1;
-  const std::vector<float> alone =
-      render_film(scene, make_plan(scene, kernels(), one), 0, 16).resolve();
-  const auto direct =
-      render_features(scene, make_plan(scene, kernels(), {}), 16).of(Feature::kDirect);
-  // Random numbers are keyed by vertex: the first vertices of both renders are the same.
-  for (size_t i = 0; i < alone.size(); ++i)
-    EXPECT_NEAR(direct[i], alone[i], 1e-5f * (1 + std::fabs(alone[i])));
+  for (const LightChoosing choosing : {LightChoosing::kAuto, LightChoosing::kAll}) {
+    const Scene scene = compile_lamps(everything_text(kSide, kSide), kernels(), choosing);
+    PlanOptions one;
+    one.max_depth = 1;
+    const std::vector<float> alone =
+        render_film(scene, make_plan(scene, kernels(), one), 0, 16).resolve();
+    const auto direct =
+        render_features(scene, make_plan(scene, kernels(), {}), 16).of(Feature::kDirect);
+    // Random numbers are keyed by vertex: the first vertices of both renders are the same.
+    for (size_t i = 0; i < alone.size(); ++i)
+      EXPECT_NEAR(direct[i], alone[i], 1e-5f * (1 + std::fabs(alone[i])));
+  }
 }
 
 TEST_P(Features, VarianceIsThatOfTheSamples) {

@@ -140,11 +140,14 @@ Scene compile_scene(const Description& description, const CompileOptions& option
     else
       other_lights.push_back(&light);
   }
-  // Every triangle counts here: what would be one light must not hide that there are many.
-  const bool rectangles = options.light_choice == LightChoosing::kPower ||
-                          options.light_choice == LightChoosing::kUniform ||
-                          options.light_choice == LightChoosing::kAll ||
-                          lights_with_a_place(shapes, other_lights) < kTreeLights;
+  // Every triangle counts here: what would be one light must not hide that there are many. Where
+  // all are to be asked, there are too many if half of the triangles would be.
+  const uint64_t with_a_place = lights_with_a_place(shapes, other_lights);
+  const bool rectangles =
+      options.light_choice == LightChoosing::kPower ||
+      options.light_choice == LightChoosing::kUniform ||
+      (options.light_choice == LightChoosing::kAll && with_a_place <= 2 * kMostAskedLights) ||
+      with_a_place < kTreeLights;
   ObjectCompiler objects(shapes.shared(), description, rectangles, diagnostics);
   objects.build({options.block_width, kd_tree, {}}, pool, scene);
 

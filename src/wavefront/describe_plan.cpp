@@ -117,8 +117,7 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   if (pilot)
     text += fmt::format(
         "  {:<17}before the first pass, {} windows of {} x {} pixels: shadow rays below {:g} of "
-        "the "
-        "level play roulette\n",
+        "the level play roulette\n",
         "pilot", kPilotWindows, kPilotWindowEdge, kPilotWindowEdge, plan.shadow_roulette);
   line(Stage::kGenerate,
        fmt::format("generate_camera_rays ({}), {} numbers: {} x {} pixels",

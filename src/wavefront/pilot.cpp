@@ -15,7 +15,7 @@ namespace {
 
 constexpr uint32_t kGrid = 8;  ///< cells along an edge of the picture
 static_assert(kGrid * kGrid == kPilotWindows);
-/// A few windows at once: the turns of a batch are well filled, and its memory is soon there.
+/// All windows at once: the turns of the batch are well filled.
 constexpr uint32_t kBatchRows = 1024;
 /// Other than 0, so that a render's own seed is never the pilot's.
 constexpr uint32_t kOtherSeed = 0x6a09e667u;
