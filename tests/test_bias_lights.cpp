@@ -77,6 +77,42 @@ TEST(BiasOfLightChoice, Veils) {
   prove_light_choice(veils_text(), 6, 16, 32);
 }
 
+// Even skies that rays find by chance, as auto leaves them, against each light asked alike.
+void prove_even_skies(const std::string& text, uint32_t depth, uint32_t samples,
+                      uint32_t uniform_samples) {
+  const KernelTable& kernels = select_kernels();
+  const auto runs = [&](LightChoosing choosing, uint32_t number, uint32_t count) {
+    const Scene scene = compile_lamps(text, kernels, choosing);
+    EXPECT_EQ(scene.asked_lights < scene.lights.size(), choosing == LightChoosing::kAuto);
+    return render_runs(scene, kernels, side_of(LightSampling::kBoth, depth, count), number);
+  };
+  const Runs uniform = runs(LightChoosing::kUniform, 0, uniform_samples);
+  expect_same("left", runs(LightChoosing::kAuto, 1, samples), uniform);
+}
+
+TEST(BiasOfEvenSkies, BesideLamps) {
+  prove_even_skies(lamps_room_text("LightSource \"infinite\" \"color L\" [.2 .25 .3]\n"), 5, 16,
+                   32);
+}
+TEST(BiasOfEvenSkies, BesideASun) {
+  prove_even_skies(
+      view_text("0 -2.4 1.2", "0 0 -.3", 40, kProofSide, kProofSide) + matte_text(".7 .6 .5") +
+          quad_text("-2 -2 -.5", "2 -2 -.5", "2 2 -.5", "-2 2 -.5") +
+          "Material \"glossy\" \"color Kd\" [.4 .2 .1] \"color Ks\" [.3 .3 .3] \"float "
+          "uroughness\" [.3] \"float vroughness\" [.3]\n" +
+          sphere_text("-.6 0 -.1", .4) + "Material \"velvet\"\n" + sphere_text(".5 .2 -.1", .4) +
+          "LightSource \"sunsky\" \"vector sundir\" [.5 -.3 .6] \"float relsize\" [20]\nWorldEnd\n",
+      5, 16, 32);
+}
+TEST(BiasOfEvenSkies, Alone) {
+  prove_even_skies(
+      view_text("0 -2.4 1.2", "0 0 -.3", 40, kProofSide, kProofSide) + matte_text(".7 .6 .5") +
+          quad_text("-2 -2 -.5", "2 -2 -.5", "2 2 -.5", "-2 2 -.5") + sphere_text("-.6 0 -.1", .4) +
+          "Material \"mirror\"\n" + sphere_text(".5 .2 -.1", .4) +
+          "LightSource \"infinite\" \"color L\" [.9 .8 .7]\nWorldEnd\n",
+      5, 16, 32);
+}
+
 // ---- Roulette of shadow rays -------------------------------------------------------------------
 
 /// Bounds of a third and of three times the picture's mean against none.

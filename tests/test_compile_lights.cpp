@@ -4,6 +4,7 @@
 #include <numbers>
 #include <random>
 
+#include "environment_scenes.h"
 #include "scene/alias_table.h"
 #include "scene/compile_parts.h"
 #include "scene_builder.h"
@@ -257,12 +258,61 @@ TEST_F(CompileLights, LampsUnderASkyKeepHalfOfTheChances) {
   shape(square(), scale(100, 100, 100));
   light(plugin("point", {number("gain", 1)}));
   light(plugin("infinite", {number("gain", 50)}));
+  options.leaves_even_skies = false;
   const Scene scene = compile();
   ASSERT_EQ(scene.lights.size(), 2u);
   EXPECT_FLOAT_EQ(scene.lights.row(0).probability, .5f);
   EXPECT_FLOAT_EQ(scene.lights.row(1).probability, .5f);
   options.light_choice = LightChoosing::kPower;
   EXPECT_LT(compile().lights.row(0).probability, .01f);
+}
+
+TEST_F(CompileLights, EvenSkiesAreLeftToChance) {
+  shape(square());
+  light(plugin("infinite", {}));
+  // Asked, of how many.
+  const auto asked = [&] {
+    const Scene scene = compile();
+    for (uint32_t i = 0; i < scene.lights.size(); ++i)
+      EXPECT_EQ(scene.lights.row(i).probability > 0, i < scene.asked_lights) << i;
+    return std::pair(scene.asked_lights, scene.lights.size());
+  };
+  EXPECT_EQ(asked(), std::pair(0u, 1u)) << "all is matte";
+  light(plugin("sky", {}));
+  EXPECT_EQ(asked(), std::pair(0u, 2u));
+  shape(square()).material = material(plugin("velvet", {}));
+  EXPECT_EQ(asked(), std::pair(2u, 2u)) << "no other light, and not all is matte";
+  light(plugin("sun", {numbers(ParameterType::kVector, "sundir", {0, 0, 1})}));
+  EXPECT_EQ(asked(), std::pair(1u, 3u));
+  EXPECT_EQ(compile().lights.row(0).kind, uint32_t(LightKind::kSun));
+  light(plugin("point", {}));
+  EXPECT_EQ(asked(), std::pair(2u, 4u));
+  for (const LightChoosing choosing : {LightChoosing::kPower, LightChoosing::kTree,
+                                       LightChoosing::kUniform, LightChoosing::kAll}) {
+    options.light_choice = choosing;
+    EXPECT_EQ(asked(), std::pair(4u, 4u));
+  }
+  options.light_choice = LightChoosing::kAuto;
+  options.leaves_even_skies = false;
+  EXPECT_EQ(asked(), std::pair(4u, 4u));
+}
+
+TEST_F(CompileLights, UnevenSkiesAreAsked) {
+  shape(square());
+  // A bright band over this part of the sphere; the mean square over the squared mean is 1 / share.
+  const auto asked = [&](uint32_t bright_rows) {
+    std::vector<uint8_t> texels(3 * 8 * 64, 0);
+    std::fill_n(texels.begin(), 3 * 8 * bright_rows, uint8_t(200));
+    const std::string picture = write_ppm("band.ppm", 8, 64, texels);
+    light(plugin("infinite", {text("mapname", picture)}));
+    const Scene scene = compile();
+    description.lights.pop_back();
+    return scene.asked_lights;
+  };
+  EXPECT_EQ(asked(64), 0u);
+  EXPECT_EQ(asked(34), 0u) << "a little more than half";
+  EXPECT_EQ(asked(28), 1u);
+  EXPECT_EQ(asked(1), 1u);
 }
 
 TEST_F(CompileLights, TwoLightsAreBothAskedIfOneIsASkyOrASun) {
@@ -273,6 +323,7 @@ TEST_F(CompileLights, TwoLightsAreBothAskedIfOneIsASkyOrASun) {
     EXPECT_EQ(scene.light_choice.size(), scene.every_light ? 0 : scene.lights.size());
     return scene.every_light;
   };
+  options.leaves_even_skies = false;
   shape(square(), scale(100, 100, 100));
   light(plugin("sun", {numbers(ParameterType::kVector, "sundir", {0, 0, 1})}));
   EXPECT_FALSE(asks_all()) << "one light";
@@ -290,6 +341,7 @@ TEST_F(CompileLights, TwoLightsAreBothAskedIfOneIsASkyOrASun) {
 }
 
 TEST_F(CompileLights, LampsAndLightsOfNoWeightAreNotAskedEach) {
+  options.leaves_even_skies = false;
   shape(square(), scale(100, 100, 100));
   light(plugin("infinite", {}));
   const double sky =

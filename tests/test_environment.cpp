@@ -8,6 +8,7 @@
 #include "environment_scenes.h"
 #include "kernel_columns.h"
 #include "kernels/rng_scalar.h"
+#include "many_lights.h"
 #include "scene/light_maps.h"
 #include "wavefront/reference.h"
 #include "wavefront/reference_parts.h"
@@ -22,6 +23,11 @@ std::string far_light_text(const std::string& light) {
   return view_text("0 -3 0", "0 0 0", 50, 8, 8) + matte_text("1 1 1") +
          "Shape \"mesh\" \"integer triindices\" [0 1 2] \"point P\" [-1 -1 0 1 -1 0 0 1 0]\n" +
          light + "WorldEnd\n";
+}
+
+/// Surfaces sample all of its lights, even skies too.
+Scene compile_asked(const std::string& text, const KernelTable& kernels) {
+  return compile_lamps(text, kernels, LightChoosing::kPower);
 }
 
 struct FarLight {
@@ -125,7 +131,7 @@ TEST_P(Environment, DirectionsFollowTheirDensity) {
   uint32_t seed = 1;
   for (const FarLight& light : far_lights()) {
     SCOPED_TRACE(light.name);
-    const Scene scene = compile_text(far_light_text(light.text), kernels());
+    const Scene scene = compile_asked(far_light_text(light.text), kernels());
     const uint32_t lights = scene.lights.size();
     const Drawn drawn(kernels(), scene, seed++);
     constexpr uint32_t kRows = 8, kColumns = 16, kFine = 40;
@@ -181,7 +187,7 @@ TEST_P(Environment, BothWaysFindTheSameLight) {
   uint32_t seed = 50;
   for (const FarLight& light : far_lights()) {
     SCOPED_TRACE(light.name);
-    const Scene scene = compile_text(far_light_text(light.text), kernels());
+    const Scene scene = compile_asked(far_light_text(light.text), kernels());
     const glm::dvec3 n = glm::normalize(glm::dvec3(.3, .2, .8));
     const reference::Axes axes(n);
     // The integral, over a fine grid.
@@ -262,6 +268,37 @@ TEST_P(Environment, KernelsSeeWhatTheReferenceSees) {
           expect_near(seen[i], wanted, 3e-4 * glm::length(wanted) + 1e-6, "radiance", i);
       }
     }
+  }
+}
+
+// What no surface samples counts in full, whatever density a path came by.
+TEST_P(Environment, SkiesLeftToChanceCountInFull) {
+  const std::string picture = uneven_picture("left.ppm", 32, 16);
+  const Scene scene = compile_text(
+      far_light_text("LightSource \"point\"\nLightSource \"infinite\" \"color L\" [.5 .6 .9]\n" +
+                     turned_text() + "LightSource \"sky\" \"vector sundir\" [.7 .2 .3]\n" +
+                     "LightSource \"infinite\" \"string mapname\" [\"" + picture + "\"]\n"),
+      kernels());
+  ASSERT_EQ(scene.asked_lights, 1u);
+  ASSERT_EQ(scene.lights.size(), 4u);
+  std::vector<glm::dvec3> directions;
+  for (uint32_t i = 0; i < 1000; ++i) {
+    const auto [u, v] = random_pair(SamplerKind::kSobol, 3, Dimension::kBsdf, 0, i, 0);
+    directions.push_back(rounded(latlong_direction(double(u), double(v))));
+  }
+  // The poles of the maps, where a density by their cells is that of no solid angle.
+  for (const double z : {-1., 1.}) directions.emplace_back(0, 0, z);
+  const std::vector<float> camera(directions.size(), 0.f), some(directions.size(), .3f);
+  const std::vector<glm::dvec3> alone = see(kernels(), scene, directions, camera);
+  EXPECT_EQ(see(kernels(), scene, directions, some), alone);
+  for (uint32_t i = 0; i < directions.size(); ++i) {
+    glm::dvec3 wanted(0);
+    for (uint32_t l = 1; l < 4; ++l) {
+      const auto seen = reference::see_environment(scene, l, {}, directions[i]);
+      EXPECT_EQ(seen.pdf, 0);
+      wanted += seen.radiance;
+    }
+    EXPECT_LT(glm::length(alone[i] - wanted), 3e-4 * glm::length(wanted)) << i;
   }
 }
 

@@ -51,8 +51,11 @@ TEST_P(Oracle, OpenAirPicturesAgree) {
 // Light found in one way only, in a scene with light of all sorts around it and lamps that are met.
 TEST_P(Oracle, PathsOfEachWayToFindLightAgreeOneByOne) {
   for (const std::string& text : {everything_text(32, 24), open_air_text(32, 24)}) {
-    const Scene scene = compile_text(text, kernels());
     for (const LightSampling ways : {LightSampling::kLights, LightSampling::kBsdf}) {
+      // Light samples alone find what is asked alone.
+      const Scene scene = compile_lamps(
+          text, kernels(),
+          ways == LightSampling::kLights ? LightChoosing::kPower : LightChoosing::kAuto);
       PlanOptions options;
       options.max_depth = 6;
       options.seed = 5;

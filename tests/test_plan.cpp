@@ -36,7 +36,7 @@ TEST(Plan, SkipsWhatTheSceneDoesNotHold) {
         "shade matte", "intersect_planes: no plane in the scene",
         "intersect_spheres: no sphere in the scene", "add_emission: no surface emits light",
         "draw lens: the camera has no lens", "shade glass: no surface of this material",
-        "draw choice: there is one light"})
+        "draw choice: one light is asked"})
     EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
 }
 
@@ -58,6 +58,23 @@ TEST(Plan, FewLightsShareTheNumberOfTheirPlace) {
   EXPECT_TRUE(plan_of("LightSource \"point\" \"color L\" [.1 .1 .1]\n"));
   EXPECT_FALSE(plan_of("LightSource \"point\" \"color L\" [.001 .001 .001]\n"))
       << "what a rare light leaves of a number is too coarse";
+}
+
+// Matte surfaces find an even sky without shadow rays; where light samples are all there is, it
+// must be among them.
+TEST(Plan, AsksNoEvenSkyOverMatteSurfaces) {
+  const KernelTable& kernels = select_kernels();
+  const Scene scene =
+      compile_text(pinhole_room("LightSource \"infinite\" \"color L\" [1 1 1]\n"), kernels);
+  const Plan plan = make_plan(scene, kernels, {});
+  EXPECT_TRUE(plan.environment);
+  EXPECT_FALSE(plan.lights || plan.bins[1].sample_lights);
+  EXPECT_TRUE(plan.light_groups.empty());
+  EXPECT_NE(describe_plan(plan, scene).find("paths find the even sky by chance"),
+            std::string::npos);
+  PlanOptions options;
+  options.light_sampling = LightSampling::kLights;
+  EXPECT_THROW(make_plan(scene, kernels, options), std::logic_error);
 }
 
 TEST(Plan, RunsWhatTheSceneHolds) {

@@ -63,6 +63,7 @@ void compile(const Arguments& arguments, const KernelTable& kernels, ThreadPool&
   options.instances = arguments.instances;
   options.compensation = arguments.compensation;
   options.light_choice = arguments.light_choice;
+  options.leaves_even_skies = arguments.light_sampling != LightSampling::kLights;
   loaded.scene = compile_scene(loaded.description, options, pool, diagnostics);
   if (arguments.tone_map) loaded.scene.film.tone_map = *arguments.tone_map;
   loaded.scene.film.exposure_stops = arguments.exposure_stops;

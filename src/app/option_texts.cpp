@@ -19,9 +19,9 @@ constexpr OptionText kInstances = {
 constexpr OptionText kLightChoice = {
     "--light-choice", "auto|power|tree|uniform|all", "auto",
     "how a lamp is chosen: by power, by a tree that knows distances too, or each alike; all: none "
-    "is, all are asked (up to 8); auto: both of two lights if one is a sky or a sun and both are "
-    "of "
-    "weight, the tree from four lamps on, else power, of which sky and sun get at most half"};
+    "is, all are asked (up to 8); auto: skies that shine evenly are left to chance, both of two "
+    "lights asked if one is a sky or a sun and both are of weight, else the tree from four lamps "
+    "on, else power, of which sky and sun get at most half"};
 constexpr OptionText kLightSampling = {
     "--light-sampling", "mis|lights|bsdf", "mis",
     "how light is found: by asking lamps and by chance, weighted; by asking alone; by chance "

@@ -1,7 +1,6 @@
 #include "film/film.h"
 
 #include <bit>
-#include <cmath>
 #include <stdexcept>
 
 namespace yat {
@@ -12,7 +11,7 @@ constexpr int kMantissaBits = 23;
 constexpr int kExponentBias = 127;
 }  // namespace
 
-Fixed to_fixed(float x) noexcept {
+Fixed to_fixed_at_ends(float x) noexcept {
   const uint32_t bits = std::bit_cast<uint32_t>(x);
   const bool negative = bits >> 31;
   const int exponent = int(bits >> kMantissaBits & 0xff);
@@ -26,33 +25,15 @@ Fixed to_fixed(float x) noexcept {
   // normal number.
   const uint64_t mantissa = exponent ? fraction | 0x800000u : fraction;
   const int shift = (exponent ? exponent : 1) - kExponentBias - kMantissaBits + kFractionBits;
-  Fixed magnitude;
-  if (shift >= 0) {
-    magnitude = Fixed(mantissa) << shift;
-  } else if (shift > -26) {
-    const uint64_t half = uint64_t(1) << (-shift - 1);
-    const uint64_t odd = mantissa >> -shift & 1;
-    magnitude = Fixed((mantissa + half - 1 + odd) >> -shift);
-  } else {
-    magnitude = 0;  // below half a step
-  }
+  if (shift <= -26) return 0;  // below half a step
+  const uint64_t half = uint64_t(1) << (-shift - 1);
+  const uint64_t odd = mantissa >> -shift & 1;
+  const auto magnitude = Fixed((mantissa + half - 1 + odd) >> -shift);
   return negative ? -magnitude : magnitude;
 }
 
 double from_fixed(Fixed x) noexcept {
   return double(x) * 0x1p-64;  // exact: a power of two, and nothing is that small
-}
-
-bool FilmPixel::add(float sample_r, float sample_g, float sample_b) noexcept {
-  // A comparison with a NaN is false.
-  if (!(std::fabs(sample_r) <= kLargestSample && std::fabs(sample_g) <= kLargestSample &&
-        std::fabs(sample_b) <= kLargestSample))
-    return false;
-  r += to_fixed(sample_r);
-  g += to_fixed(sample_g);
-  b += to_fixed(sample_b);
-  ++samples;
-  return true;
 }
 
 Film::Film(uint32_t width, uint32_t height)

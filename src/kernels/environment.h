@@ -11,25 +11,26 @@
 
 namespace yat::YAT_ISA {
 
-/// What the environment `row`, the same in all lanes, shows in direction w.
+/// What the environment `row`, the same in all lanes, shows in direction w. asked: surfaces sample
+/// it; else no density is needed.
 template <class A>
 YAT_INLINE SeenEnvironment<A> see_environment(const LightView& lights, LightKind kind,
                                               const LightRowW<A>& row, const Mask<A>& active,
-                                              const Vec3<A>& w) {
+                                              const Vec3<A>& w, bool asked) {
   switch (kind) {
     case LightKind::kImage:
-      return ImageLight<A>::see(lights, row, active, w);
+      return ImageLight<A>::see(lights, row, active, w, asked);
     case LightKind::kSun:
-      return SunLight<A>::see(lights, row, active, w);
+      return SunLight<A>::see(lights, row, active, w, asked);
     case LightKind::kSky:
-      return SkyLight<A>::see(lights, row, active, w);
+      return SkyLight<A>::see(lights, row, active, w, asked);
     default:
-      return ConstantLight<A>::see(lights, row, active, w);
+      return ConstantLight<A>::see(lights, row, active, w, asked);
   }
 }
 
-/// Word of LightRow::kind in a row.
-inline constexpr uint32_t kLightKindWord = 14;
+/// Words of LightRow::probability and kind in a row.
+inline constexpr uint32_t kLightProbabilityWord = 13, kLightKindWord = 14;
 
 /// See KernelTable::add_environment, add_tree_environment. Environments are added up in the order
 /// of their rows.
@@ -68,9 +69,10 @@ void add_environment(const SceneView& scene, const uint32_t* order, const Ray<Co
     Float<A> r(0.f), g(0.f), b(0.f);
     for (uint32_t light = lights.first_environment; light < lights.rows.count; ++light) {
       const LightRowW<A> row = broadcast<A>(lights.rows, light);
-      const auto kind =
-          LightKind(lights.rows.words[size_t(light) * row_words<LightRow> + kLightKindWord]);
-      const SeenEnvironment<A> seen = see_environment<A>(lights, kind, row, missed, w);
+      const uint32_t* const words = lights.rows.words + size_t(light) * row_words<LightRow>;
+      const SeenEnvironment<A> seen =
+          see_environment<A>(lights, LightKind(words[kLightKindWord]), row, missed, w,
+                             words[kLightProbabilityWord] != 0);
       const Float<A> weight =
           select<A>(path.pdf == zero, one,
                     power_heuristic<A>(path.pdf, seen.pdf * (chosen * chance_of_light<A>(row))));

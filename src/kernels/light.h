@@ -12,7 +12,7 @@
 //
 //   template <class A> struct NAMELight {
 //     static ShadedPick<A> sample(lights, row, of_kind, receiver, far, u, v);
-//     static SeenEnvironment<A> see(lights, row, of_kind, direction);   // environments only
+//     static SeenEnvironment<A> see(lights, row, of_kind, direction, asked);  // environments only
 //   };
 //
 // Densities are per solid angle at the receiver, without the choice of the light.

@@ -184,7 +184,7 @@ Scene compile_scene(const Description& description, const CompileOptions& option
                   diagnostics);
   scene.light_samples = shapes.light_samples() + other_lights.size();
   rows.emission().finish(uint32_t(lights.size()), shapes.emission(), light_tables, scene);
-  finish_lights(std::move(lights), light_tables, options.light_choice, pool, scene);
+  finish_lights(std::move(lights), light_tables, options, pool, scene);
   if (options.light_choice == LightChoosing::kAll && scene.lights.size() > kMostAskedLights)
     diagnostics.warning({}, fmt::format("--light-choice all: {} lights are more than the {} that a "
                                         "surface may ask together: auto is used",

@@ -96,7 +96,8 @@ inline constexpr uint64_t kCopiedTriangles = 1 << 18;
 /// --light-choice: how a surface chooses the light that it asks for.
 enum class LightChoosing {
   kAuto,     ///< by the tree from kTreeLights on; else by power, half or more to those with a
-             ///< place; two lights of weight, one a sky or a sun, are both asked
+             ///< place; two lights of weight, one a sky or a sun, are both asked; even skies are
+             ///< not, where others are or all is matte
   kPower,    ///< by power alone
   kTree,     ///< by power, distance and direction, if two lights have a place
   kUniform,  ///< each alike: what the others are proved against
@@ -124,6 +125,9 @@ struct CompileOptions {
   ColourMode colour = ColourMode::kBands;
   InstanceMode instances = InstanceMode::kAuto;
   LightChoosing light_choice = LightChoosing::kAuto;
+  /// Whether kAuto may leave even skies to chance: not where light samples are all that finds it
+  /// (LightSampling::kLights).
+  bool leaves_even_skies = true;
   bool ids = false;      ///< for feature pictures: Scene::prim_ids and what instances have
   bool keep_uv = false;  ///< the same: texture coordinates also where nothing is textured
   /// Direct light, mirrors and glass alone, or all light; empty: as SurfaceIntegrator says.
@@ -162,6 +166,7 @@ struct Scene {
   Tree veil_shape_tree;  ///< over spheres and shapes that are, if many
   Instances instances;
   RowTable<LightRow> lights;
+  uint32_t asked_lights = 0;  ///< lights from this row on are found by chance alone: probability 0
   RowTable<EmissionRow> emission;  ///< per light, where that of any varies
   std::vector<TextureProgram> emission_programs;
   bool every_light = false;  ///< surfaces ask all lights, each of probability 1; else one of them

@@ -52,6 +52,7 @@ void compile_infinite(LightContext& light) {
   const double mean = cells.average();
   LightRow<Value> row = light_row(LightKind::kImage, mean > 0 ? radiance : glm::dvec3(0.));
   row.extra = float(mean);
+  row.c_y = float(cells.unevenness());
   add_cells(cells, light.tables, *map);
   row.c_x = row_bits(light.tables.maps.size());
   light.tables.maps.push_back(*map);

@@ -237,8 +237,8 @@ double light_power(const LightRow<Value>& light, const ColourModel& colour, doub
 }
 
 void finish_lights(std::vector<LightRow<Value>> rows, const LightTables& tables,
-                   LightChoosing choosing, ThreadPool& pool, Scene& scene) {
-  prepare_light_choice(rows, choosing, pool, scene);
+                   const CompileOptions& options, ThreadPool& pool, Scene& scene) {
+  prepare_light_choice(rows, options, pool, scene);
   scene.lights.resize(uint32_t(rows.size()));
   scene.light_kinds = 0;
   for (uint32_t i = 0; i < rows.size(); ++i) {

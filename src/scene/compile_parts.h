@@ -358,6 +358,6 @@ double light_power(const LightRow<Value>& light, const ColourModel& colour, doub
 /// Fills the scene's light tables (its colour model and radius must be set): what lights are chosen
 /// by, maps.
 void finish_lights(std::vector<LightRow<Value>> rows, const LightTables& tables,
-                   LightChoosing choosing, ThreadPool& pool, Scene& scene);
+                   const CompileOptions& options, ThreadPool& pool, Scene& scene);
 
 }  // namespace yat

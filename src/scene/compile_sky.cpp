@@ -119,6 +119,7 @@ void compile_sky(LightContext& light) {
   LightRow<Value> row =
       light_row(LightKind::kSky, glm::dvec3(mean > 0 && std::isfinite(mean) ? 1. : 0.));
   row.extra = float(mean);
+  row.c_y = float(cells.unevenness());
   add_cells(cells, light.tables, *map);
   row.c_x = row_bits(light.tables.maps.size());
   row.b_x = row_bits(light.tables.skies.size());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 #include "scene/alias_table.h"
 #include "scene/compile_parts.h"
@@ -21,7 +22,7 @@ double light_luminance(const LightRow<Value>& row, const ColourModel& colour) {
 }
 
 /// Builds the tree, if it can be of use: not where no light with a place shines.
-bool make_tree(std::vector<LightRow<Value>>& rows, uint32_t placed, ThreadPool& pool,
+bool make_tree(std::span<const LightRow<Value>> rows, uint32_t placed, ThreadPool& pool,
                Scene& scene) {
   std::vector<LightBound> bounds;
   double total = 0, far = 0;
@@ -65,32 +66,74 @@ bool asks_all(const std::vector<double>& power, uint32_t placed, LightChoosing c
   return least >= kLeastPower * (least + most);
 }
 
+/// Whether an environment sends about as much from everywhere. Its own samples then are no better
+/// than those of a surface that takes all directions alike: for surfaces turned any way, the second
+/// moment of a light sample is 8/3 of the mean's square, that of a direction by the cosine this
+/// unevenness.
+bool is_even(const LightRow<Value>& row) {
+  constexpr float kMostUneven = 2;
+  switch (LightKind(row.kind)) {
+    case LightKind::kConstant:
+      return true;
+    case LightKind::kImage:
+    case LightKind::kSky:
+      return row.c_y <= kMostUneven;
+    default:
+      return false;
+  }
+}
+
+/// Whether even environments, the last rows, are left to be found by the directions that materials
+/// choose: their shadow rays are spared, or left to other lights. Where there is none, they are
+/// worth it to all but matte surfaces, whose directions are just what such a sky asks for
+/// (docs/decisions.md).
+bool leaves_skies(std::span<const LightRow<Value>> others, const CompileOptions& options,
+                  const Scene& scene) {
+  if (options.light_choice != LightChoosing::kAuto || !options.leaves_even_skies) return false;
+  const auto shines = [&](const LightRow<Value>& row) {
+    return light_power(row, scene.colour, double(scene.radius)) > 0;
+  };
+  return std::any_of(others.begin(), others.end(), shines) ||
+         std::all_of(scene.bins.begin() + 1, scene.bins.end(), [](const Bin& bin) {
+           const MaterialTraits traits = material_traits(bin.material);
+           return bin.material == MaterialKind::kMatte || traits.delta || traits.see_through;
+         });
+}
+
 }  // namespace
 
-void prepare_light_choice(std::vector<LightRow<Value>>& rows, LightChoosing choosing,
+void prepare_light_choice(std::vector<LightRow<Value>>& rows, const CompileOptions& options,
                           ThreadPool& pool, Scene& scene) {
+  const LightChoosing choosing = options.light_choice;
   const auto environments = std::stable_partition(
       rows.begin(), rows.end(),
       [](const LightRow<Value>& row) { return row.kind < kFirstEnvironment; });
   const auto far = std::stable_partition(
       rows.begin(), environments,
       [&](const LightRow<Value>& row) { return light_bound(row, 1, scene.shapes).has_value(); });
+  const auto even = std::stable_partition(environments, rows.end(),
+                                          [](const LightRow<Value>& row) { return !is_even(row); });
   scene.first_environment = uint32_t(environments - rows.begin());
-  const auto placed = uint32_t(far - rows.begin()), all = uint32_t(rows.size());
+  const auto others = size_t(even - rows.begin());
+  scene.asked_lights =
+      uint32_t(leaves_skies({rows.data(), others}, options, scene) ? others : rows.size());
+  const std::span<LightRow<Value>> asked(rows.data(), scene.asked_lights);
+  const auto placed = uint32_t(far - rows.begin()), all = uint32_t(asked.size());
   scene.first_far_light = placed;
+  for (LightRow<Value>& row : rows) row.probability = 0;
   std::vector<double> power;
-  for (const LightRow<Value>& row : rows)
+  for (const LightRow<Value>& row : asked)
     power.push_back(choosing == LightChoosing::kUniform
                         ? 1
                         : light_power(row, scene.colour, double(scene.radius)));
-  for (LightRow<Value>& row : rows) row.probability = 1;
+  for (LightRow<Value>& row : asked) row.probability = 1;
   scene.every_light = asks_all(power, placed, choosing);
   if (scene.every_light || all == 0) return;
 
   // --light-choice all goes on as auto where there are too many.
   const bool may = choosing != LightChoosing::kPower && choosing != LightChoosing::kUniform;
   const uint32_t least = choosing == LightChoosing::kTree ? 2 : kTreeLights;
-  const bool by_tree = may && placed >= least && make_tree(rows, placed, pool, scene);
+  const bool by_tree = may && placed >= least && make_tree(asked, placed, pool, scene);
   const uint32_t first = by_tree ? placed : 0;
   if (first == all) return;
   power.erase(power.begin(), power.begin() + first);
@@ -98,7 +141,7 @@ void prepare_light_choice(std::vector<LightRow<Value>>& rows, LightChoosing choo
   const AliasTable table = make_alias_table(power);
   scene.light_choice.resize(all - first);
   for (uint32_t i = first; i < all; ++i) {
-    rows[i].probability = table.probability[i - first];
+    asked[i].probability = table.probability[i - first];
     scene.light_choice.set(i - first, table.choice[i - first]);
   }
 }

@@ -174,6 +174,18 @@ double CellMeans::average() const {
   return sum / (4 * kPi);
 }
 
+double CellMeans::unevenness() const {
+  const double whole = average();
+  if (!(whole > 0)) return 1;
+  double sum = 0;
+  for (uint32_t row = 0; row < rows; ++row)
+    for (uint32_t column = 0; column < columns; ++column) {
+      const double times = mean[size_t(row) * columns + column] / whole;
+      sum += times * times * cell_angle(*this, row);
+    }
+  return sum / (4 * kPi);
+}
+
 CellMeans picture_cells(const LightMapRow<Value>& map, const LightTables& tables,
                         const glm::dvec3& radiance, const BandMatrix& film) {
   const float* texels = tables.texels.data();

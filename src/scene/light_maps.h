@@ -52,6 +52,9 @@ struct CellMeans {
   std::vector<double> mean;
   /// Over all directions.
   double average() const;
+  /// Mean square over squared mean, over all directions: 1 if all are alike, 2 if half are dark,
+  /// the share of the sphere's whole over that of a lone bright spot. 1 if all are dark.
+  double unevenness() const;
 };
 /// Of radiance (bands) times the map's picture.
 CellMeans picture_cells(const LightMapRow<Value>& map, const LightTables& tables,

@@ -68,9 +68,9 @@ static_assert(sizeof(kLightKindNames) / sizeof(*kLightKindNames) == uint32_t(Lig
 ///               extra = 1 / LuxRender's area
 ///   shape       a_x = its row of ShapesView::rows, as bits; extra = area [m2]
 ///   constant    radiance alone
-///   image       c_x = map row (as bits), extra = mean luminance, radiance included
+///   image       c_x = map row (as bits), c_y = unevenness, extra = mean luminance with radiance
 ///   sun         a = unit direction towards its middle, extra = 1 - cos(its angular radius)
-///   sky         c_x = map row, b_x = sky row (as bits), extra = mean luminance, radiance included
+///   sky         c_x = map row, b_x = sky row (as bits), c_y, extra = as of an image
 template <template <class> class Of>
 struct LightRow {
   Of<float> a_x, a_y, a_z, b_x, b_y, b_z, c_x, c_y, c_z;

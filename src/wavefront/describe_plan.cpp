@@ -150,11 +150,11 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
        fmt::format("{}: {} bins", plan.instances ? "classify_instance_hits" : "classify_hits",
                    plan.bins.size() - 1));
   if (plan.environment)
-    line(
-        Stage::kEnvironment,
-        fmt::format("{}: {} lights{}", plan.light_tree ? "add_tree_environment" : "add_environment",
-                    scene.lights.size() - scene.first_environment,
-                    plan.transport.hide_environment ? ", not to camera rays" : ""));
+    line(Stage::kEnvironment,
+         fmt::format("{}: {} lights{}",
+                     plan.far_by_tree ? "add_tree_environment" : "add_environment",
+                     scene.lights.size() - scene.first_environment,
+                     plan.transport.hide_environment ? ", not to camera rays" : ""));
   for (uint32_t b = 1; b < plan.bins.size(); ++b) {
     const BinPlan& bin = plan.bins[b];
     std::string what = fmt::format("bin {}, {} primitives: {} {}", b, bin.bin.primitives,
@@ -188,7 +188,7 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
                            ? fmt::format(" ({} nodes)", scene.veil_shape_tree.view.node_count)
                            : std::string()));
     line(Stage::kAccumulate,
-         fmt::format("add_unoccluded: {} lights{}", scene.lights.size(), ways_text(plan)));
+         fmt::format("add_unoccluded: {} lights{}", scene.asked_lights, ways_text(plan)));
   }
 
   text += "skipped\n";
@@ -224,15 +224,16 @@ std::string describe_plan(const Plan& plan, const Scene& scene) {
   if (!plan.lights)
     skipped(false, "sample_lights, intersect_shadow, add_unoccluded",
             !scene.lights.size()        ? "no light in the scene"
+            : !scene.asked_lights       ? "paths find the even sky by chance"
             : !plan.transport.max_depth ? "paths end at their first vertex"
                                         : "light is found by chance (--light-sampling bsdf)");
   else
     skipped(any_bin([](const ShadePlan& b) { return b.draw_choice; }) ||
-                (scene.lights.size() > 1 && !plan.light_by_place && plan.light_groups.size() == 1),
+                (scene.asked_lights > 1 && !plan.light_by_place && plan.light_groups.size() == 1),
             "draw choice",
             plan.light_by_place            ? "the number of the place chooses the light"
             : plan.light_groups.size() > 1 ? "every light is asked"
-                                           : "there is one light");
+                                           : "one light is asked");
   skipped(plan.light_tree || !plan.lights, "light tree",
           plan.light_groups.size() > 1 ? "every light is asked" : "lights are chosen by power");
   skipped(any_bin([](const ShadePlan& b) { return b.draw_lobe; }), "draw lobe",

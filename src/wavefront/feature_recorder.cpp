@@ -80,19 +80,6 @@ void FeatureRecorder::record_albedo(const PathState<Column>& paths, const Sample
   }
 }
 
-ColourTriple<float> FeatureRecorder::film_colour(const SampleSum<Column>& sums,
-                                                 uint32_t row) const {
-  return rgb_of<float>({sums.r[row], sums.g[row], sums.b[row]}, scene_.colour.film);
-}
-
-ColourTriple<float> FeatureRecorder::light(const SampleSum<Column>& sums, uint32_t slot) const {
-  if (!split_) return film_colour(sums, slot);
-  const uint32_t rest = slot + rows_;
-  return rgb_of<float>(
-      {sums.r[slot] + sums.r[rest], sums.g[slot] + sums.g[rest], sums.b[slot] + sums.b[rest]},
-      scene_.colour.film);
-}
-
 void FeatureRecorder::record_light(const SampleSum<Column>& sums, uint32_t slot,
                                    const ColourTriple<float>& rgb) {
   const size_t pixel = sums.pixel[slot];

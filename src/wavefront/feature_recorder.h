@@ -42,15 +42,21 @@ class FeatureRecorder {
                      uint32_t end);
   /// The path's own row, of either of its rows.
   uint32_t own_row(uint32_t slot) const { return slot < rows_ ? slot : slot - rows_; }
-  /// Light of an ended path that the film has taken; slot is its own row. Returns all of it.
-  ColourTriple<float> light(const SampleSum<Column>& sums, uint32_t slot) const;
+  /// Bands of all light of an ended path; slot is its own row.
+  ColourTriple<float> light(const SampleSum<Column>& sums, uint32_t slot) const {
+    if (!split_) return {sums.r[slot], sums.g[slot], sums.b[slot]};
+    const uint32_t rest = slot + rows_;
+    return {sums.r[slot] + sums.r[rest], sums.g[slot] + sums.g[rest], sums.b[slot] + sums.b[rest]};
+  }
   void record_light(const SampleSum<Column>& sums, uint32_t slot, const ColourTriple<float>& rgb);
 
  private:
   enum Seen : uint8_t { kNothing, kSurface, kAlbedo };
   /// Of a primitive row; of a triangle of an object, if `instance` is a row and not kNone.
   SurfaceIds ids_of(uint32_t prim, uint32_t instance) const;
-  ColourTriple<float> film_colour(const SampleSum<Column>& sums, uint32_t row) const;
+  ColourTriple<float> film_colour(const SampleSum<Column>& sums, uint32_t row) const {
+    return rgb_of<float>({sums.r[row], sums.g[row], sums.b[row]}, scene_.colour.film);
+  }
 
   const Scene& scene_;
   FeatureFilm* film_;

@@ -63,7 +63,7 @@ void need_kernels(const Plan& plan) {
     need(k.add_unoccluded, k, "add_unoccluded");
   }
   if (plan.environment)
-    need(plan.light_tree ? k.add_tree_environment : k.add_environment, k, "add_environment");
+    need(plan.far_by_tree ? k.add_tree_environment : k.add_environment, k, "add_environment");
   for (uint32_t b = 1; b < plan.bins.size(); ++b) {
     const BinPlan& bin = plan.bins[b];
     if (bin.bin.instanced)
@@ -205,16 +205,19 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
   plan.instance_mask = !scene.instances.all_occlude;
 
   // Light is sampled at vertices below max_depth only.
-  plan.lights = scene.lights.size() > 0 && options.max_depth > 0 &&
+  if (plan.light_sampling == LightSampling::kLights && scene.asked_lights < scene.lights.size())
+    throw std::logic_error("make_plan: some lights of the scene are found by chance alone");
+  plan.lights = scene.asked_lights > 0 && options.max_depth > 0 &&
                 (plan.light_sampling != LightSampling::kBsdf || has_unmet_lights(scene));
   if (plan.lights) plan.shadow_roulette = options.shadow_roulette;
   plan.light_tree = scene.light_tree.nodes.size() > 0;
-  const uint32_t lights = scene.lights.size(), in_group = scene.every_light ? 1 : lights;
+  const uint32_t lights = scene.asked_lights, in_group = scene.every_light ? 1 : lights;
   for (uint32_t i = 0; plan.lights && i < lights; i += in_group)
     plan.light_groups.push_back(plan_group(scene, {i, i + in_group}));
   plan.light_by_place = plan.lights && lights_share_number(scene, plan.light_groups[0]);
   plan.varying_emission = plan.lights && scene.emission.size() > 0;
   plan.environment = scene.first_environment < scene.lights.size();
+  plan.far_by_tree = plan.light_tree && scene.first_far_light < scene.asked_lights;
   plan.transport.hide_environment = !scene.show_environment;
   // Scattering vertices beyond the first that plays roulette are needed for it to be played.
   const bool roulette = plan.transport.max_depth > plan.transport.roulette_depth;

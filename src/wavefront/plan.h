@@ -52,7 +52,7 @@ struct BinPlan : ShadePlan {
   bool emission = false;  ///< rows have a light row: add_emission runs
 };
 
-/// Lights of which a surface samples one: all of the scene, or one of them (Scene::every_light).
+/// Lights of which a surface samples one: all that are asked, or one of them (Scene::every_light).
 struct LightGroup {
   RowRange rows;
   uint32_t kinds;   ///< bits by LightKind
@@ -91,7 +91,7 @@ struct Plan {
   bool light_by_place = false;    ///< the number of a light's place chooses the light, too
   bool lights = false;
   std::vector<LightGroup> light_groups;  ///< at least one where there are lights
-  bool far_by_tree = false;       ///< whether a light without a place is chosen, the tree decides
+  bool far_by_tree = false;       ///< whether a light without a place is asked, the tree decides
   bool varying_emission = false;  ///< some light does not shine evenly: light samples are weighed
   bool environment = false;       ///< lights that rays find which leave the scene
 };

@@ -379,8 +379,11 @@ SeenEnvironment see_environment(const Scene& scene, uint32_t light, const Vec& r
       const double density =
           cell_density(scene, map, std::min(uint32_t(s * map.columns), map.columns - 1),
                        std::min(uint32_t(t * map.rows), map.rows - 1));
-      return {radiance * environment_colour(scene, row, l),
-              probability * density / (2 * kPi * kPi * sine * turned(to_light, l))};
+      // At a pole, what is never drawn has no density all the same.
+      const double pdf = probability > 0
+                             ? probability * density / (2 * kPi * kPi * sine * turned(to_light, l))
+                             : 0;
+      return {radiance * environment_colour(scene, row, l), pdf};
     }
   }
 }

@@ -6,6 +6,10 @@
 
 namespace yat {
 
+namespace {
+constexpr uint32_t kFilmGroup = 16;  ///< paths that go to the film together
+}
+
 Worker::Worker(const Scene& scene, const Plan& plan, uint32_t batch_rows, bool trace, Film& film,
                FeatureFilm* features)
     : scene_(scene),
@@ -174,7 +178,7 @@ void Worker::environment() {
   const uint32_t n = bin_begin_[1];
   if (!n) return;
   clock_.enter(Stage::kEnvironment, n);
-  const auto add = plan_.light_tree ? kernels_.add_tree_environment : kernels_.add_environment;
+  const auto add = plan_.far_by_tree ? kernels_.add_tree_environment : kernels_.add_environment;
   PathState<ConstColumn> paths = batch_.paths[current_].view();
   const uint32_t* rows = batch_.order.data();
   uint32_t taken = n;
@@ -233,30 +237,43 @@ void Worker::accumulate() {
   clock_.enter(Stage::kAccumulate);
   const uint32_t* slot = batch_.paths[current_].columns().slot;
   for (uint32_t i = 0; i < ended; ++i) out_.finished[out_.finished_count++] = slot[batch_.order[i]];
-  // Slots are in no order: the film's pixels are asked for a few paths ahead.
-  constexpr uint32_t kAhead = 12;
-  const uint32_t* pixel = batch_.sums.columns().pixel;
-  for (uint32_t i = 0; i < out_.finished_count; ++i) {
-    if (i + kAhead < out_.finished_count)
-      __builtin_prefetch(film_.data() + pixel[out_.finished[i + kAhead]], 1);
-    flush(out_.finished[i]);
-  }
+  // Slots are in no order: a group's pixels are asked for before the first is needed.
+  for (uint32_t i = 0; i < out_.finished_count; i += kFilmGroup)
+    flush(out_.finished + i, std::min(kFilmGroup, out_.finished_count - i));
   counted_.stats.paths += out_.finished_count;
 }
 
-void Worker::flush(uint32_t row) {
-  const uint32_t slot = features_.own_row(row);
+void Worker::flush(const uint32_t* rows, uint32_t n) {
   const SampleSum<Column>& sums = batch_.sums.columns();
-  const uint32_t pixel = sums.pixel[slot];
-  const ColourTriple<float> rgb = features_.light(sums, slot);
-  if (film_.data()[pixel].add(rgb.r, rgb.g, rgb.b)) {
-    if (features_.active()) features_.record_light(sums, slot, rgb);
-  } else {
-    const uint32_t x = film_x0_ + pixel % film_.width();
-    const uint32_t y = film_y0_ + pixel / film_.width();
-    counted_.drops.add(DropCause::kOther, y << 16 | x, batch_.slot_sample[slot]);
+  uint32_t* const slots = batch_.free_slots.data() + batch_.free_count;
+  FilmPixel* pixels[kFilmGroup];
+  for (uint32_t i = 0; i < n; ++i) {
+    slots[i] = features_.own_row(rows[i]);
+    pixels[i] = film_.data() + sums.pixel[slots[i]];
+    __builtin_prefetch(pixels[i], 1);
   }
-  batch_.free_slots[batch_.free_count++] = slot;
+  batch_.free_count += n;
+  float r[kFilmGroup] = {}, g[kFilmGroup] = {}, b[kFilmGroup] = {};
+  for (uint32_t i = 0; i < n; ++i) {
+    const ColourTriple<float> bands = features_.light(sums, slots[i]);
+    r[i] = bands.r, g[i] = bands.g, b[i] = bands.b;
+  }
+  const BandMatrix film = scene_.colour.film;
+  for (uint32_t i = 0; i < kFilmGroup; ++i) {
+    const ColourTriple<float> rgb = rgb_of<float>({r[i], g[i], b[i]}, film);
+    r[i] = rgb.r, g[i] = rgb.g, b[i] = rgb.b;
+  }
+  for (uint32_t i = 0; i < n; ++i) {
+    const uint32_t slot = slots[i];
+    if (pixels[i]->add(r[i], g[i], b[i])) {
+      if (features_.active()) features_.record_light(sums, slot, {r[i], g[i], b[i]});
+    } else {
+      const uint32_t pixel = sums.pixel[slot];
+      const uint32_t x = film_x0_ + pixel % film_.width();
+      const uint32_t y = film_y0_ + pixel / film_.width();
+      counted_.drops.add(DropCause::kOther, y << 16 | x, batch_.slot_sample[slot]);
+    }
+  }
 }
 
 }  // namespace yat

@@ -129,8 +129,8 @@ class Worker {
   void add_passing(const ShadePlan& plan, GeometryKind geometry, const Surface<Column>& surfaces,
                    bool turned, const float* weight, uint32_t n, uint32_t level);
   void accumulate();
-  /// row: of SampleSum, of a path that has ended.
-  void flush(uint32_t row);
+  /// Paths that have ended, by their rows of SampleSum, to the film.
+  void flush(const uint32_t* rows, uint32_t n);
   void count(Stage stage, uint64_t rows);
   void count(Stage stage, uint64_t rows, LaneCount lanes);
 

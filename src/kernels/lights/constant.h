@@ -20,7 +20,7 @@ struct ConstantLight {
     return pick;
   }
   static YAT_INLINE SeenEnvironment<A> see(const LightView&, const LightRowW<A>&, const Mask<A>&,
-                                           const Vec3<A>&) {
+                                           const Vec3<A>&, bool) {
     const Float<A> one(1.f);
     return {{one, one, one}, Float<A>(.5f / kTwoPi)};
   }

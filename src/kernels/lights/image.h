@@ -16,11 +16,11 @@ struct ImageLight {
     return {drawn.pick, look_up<A>(lights, map, picture_place<A>(map, drawn.local))};
   }
   static YAT_INLINE SeenEnvironment<A> see(const LightView& lights, const LightRowW<A>& row,
-                                           const Mask<A>& of_kind, const Vec3<A>& w) {
+                                           const Mask<A>& of_kind, const Vec3<A>& w, bool asked) {
     const LightMapW<A> map = load_map<A>(lights, row, of_kind);
     const MappedDirection<A> found = to_map<A>(map, w);
     return {look_up<A>(lights, map, picture_place<A>(map, found.unit)),
-            pdf_by_cells<A>(lights, map, found)};
+            asked ? pdf_by_cells<A>(lights, map, found) : Float<A>(0.f)};
   }
 };
 

@@ -20,7 +20,7 @@ struct SunLight {
   /// Inside by the chord, |w - axis|^2 = 2 (1 - cos): the cosine itself has not the digits to tell
   /// where a disc of a quarter of a degree ends.
   static YAT_INLINE SeenEnvironment<A> see(const LightView&, const LightRowW<A>& row,
-                                           const Mask<A>&, const Vec3<A>& w) {
+                                           const Mask<A>&, const Vec3<A>& w, bool) {
     const Vec3<A> chord = w - light_a<A>(row);
     const Float<A> inside = only<A>(dot(chord, chord) <= Float<A>(2.f) * row.extra, Float<A>(1.f));
     return {{inside, inside, inside}, cone_pdf<A>(row.extra)};
