@@ -2,7 +2,7 @@
 // Rays against the 8-wide tree in breadth-first streams: a node is visited once with the list of
 // all rays that reach it, tests them against its eight boxes, and hands each child the packed list
 // of its rays. Long lists test W rays against one box after the other, short ones a ray against
-// eight boxes.
+// eight boxes, and the rays of the shortest leave the stream (traverse_tasks.h, traverse_walks.h).
 //
 // Row independence (invariant 1): what a ray meets follows from the tree and the ray. Whether
 // it enters a box is decided by comparisons of its own numbers, the same in all kinds of test, and
@@ -14,7 +14,7 @@
 
 #include <type_traits>
 
-#include "kernels/traverse_tasks.h"
+#include "kernels/traverse_walks.h"
 
 namespace yat::YAT_ISA {
 
@@ -40,8 +40,10 @@ struct Traversal {
   Leaves* leaves = nullptr;
   uint32_t stopped = 0;   ///< rays of an any-hit pass that have met something
   ShortTasks tasks = {};  ///< of any-hit passes whose leaves are blocks
+  RayWalks walks = {};    ///< of closest-hit passes whose leaves are blocks
 
   static constexpr bool kPutsOff = Q != Query::kClosest && std::is_void_v<Leaves>;
+  static constexpr bool kSendsAlone = Q == Query::kClosest && std::is_void_v<Leaves>;
 
   YAT_INLINE void note_stopped(uint32_t rays) {
     if constexpr (kPutsOff) stopped += rays;
@@ -240,6 +242,13 @@ struct Traversal {
       const uint32_t child = node.child[c];
       const bool leaf = child & kLeafBit;
       uint32_t left = lengths[c];
+      if constexpr (kSendsAlone)
+        if (left <= kWalkRays) {
+          for (uint32_t i = 0; i < left; ++i)
+            if (!is_done(records[size_t(lists[c][i]) * kRecordWords + kRecordT], enters[c], i))
+              send_ray<A, Q>(*this, lists[c][i], {child, enters[c][i]});
+          continue;
+        }
       if constexpr (!std::is_void_v<Leaves>) {
         if (leaf) {
           left = drop_done(lists[c], enters[c], left);
@@ -266,15 +275,17 @@ struct Traversal {
 /// Bytes of the parts of the scratch memory.
 struct ScratchPlan {
   uint32_t rays;
-  size_t records, words, tasks, total;
+  size_t records, words, total;
   YAT_INLINE ScratchPlan(const TreeView& tree, uint32_t max_rays) {
     rays = max_rays < kStreamRays ? max_rays : kStreamRays;
     records = (size_t(rays) + 1) * kRecordWords * 4;
     words = list_words(rays) * 4;
-    // Tasks, rows' slots, shifts and classes, the root's list, and eight lists (slots and
+    // Tasks or walks, rows' slots, shifts and classes, the root's list, and eight lists (slots and
     // distances) per level of the tree, each as long as the stream: nothing can overflow.
-    tasks = size_t(ShortTasks::places(tree.max_depth)) * sizeof(ShortTask);
-    total = tasks + records + words * 4 + words * 16 * (size_t(tree.max_depth) + 1) + 64;
+    const size_t tasks = size_t(ShortTasks::places(tree.max_depth)) * sizeof(ShortTask);
+    const size_t walks = RayWalks::bytes(tree.max_depth) + (size_t(rays) + 63) / 64 * 64;
+    total = (tasks > walks ? tasks : walks) + records + words * 4 +
+            words * 16 * (size_t(tree.max_depth) + 1) + 64;
   }
 };
 
@@ -308,8 +319,21 @@ YAT_INLINE LaneCount trace_passes(const TreeView& tree, const RayStream& stream,
                                   std::byte* free, Leaves* leaves, uint32_t common = 0) {
   constexpr uint32_t W = kLanes<A>;
   LaneCount count;
-  const uint32_t places = ShortTasks::places(tree.max_depth);
-  auto* const ring = reinterpret_cast<ShortTask*>(take_bytes(free, places * sizeof(ShortTask)));
+  using Pass = Traversal<A, Q, P, Leaves>;
+  ShortTasks tasks;
+  RayWalks walks;
+  if constexpr (Pass::kPutsOff) {
+    const uint32_t places = ShortTasks::places(tree.max_depth);
+    tasks.ring = reinterpret_cast<ShortTask*>(take_bytes(free, places * sizeof(ShortTask)));
+    tasks.mask = places - 1;
+  }
+  if constexpr (Pass::kSendsAlone) {
+    walks.boxes = reinterpret_cast<WalkBox*>(take_bytes(free, RayWalks::bytes(tree.max_depth)));
+    walks.places = RayWalks::places_for(tree.max_depth);
+    walks.walk_of_slot = reinterpret_cast<uint8_t*>(take_bytes(free, stream.left_out));
+    __builtin_memset(walks.walk_of_slot, RayWalks::kNoWalk, stream.left_out);
+    for (uint32_t i = 0; i < kWalks; ++i) walks.order[i] = uint8_t(i);
+  }
   for (uint32_t pass = 0; pass < kClasses<P> / 3; ++pass) {
     const uint32_t* const first = stream.first_slot + 3 * pass;
     const uint32_t m = first[3] - first[0];
@@ -318,10 +342,11 @@ YAT_INLINE LaneCount trace_passes(const TreeView& tree, const RayStream& stream,
       (lane_index<A>() + UInt<A>(first[0] + i)).store_unaligned(slots + i);
     UInt<A>(first[0]).store_unaligned(slots + m);
     const uint32_t octant = P == Passes::kByOctant ? pass : common;
-    Traversal<A, Q, P, Leaves> traversal{tree, stream.records, first[1], first[2], octant,
-                                         {},   leaves};
-    traversal.tasks = {ring, places - 1};
+    Pass traversal{tree, stream.records, first[1], first[2], octant, {}, leaves};
+    traversal.tasks = tasks;
+    traversal.walks = walks;
     traversal.visit(0, slots, m, free);
+    if constexpr (Pass::kSendsAlone) step_walks<A, Q>(traversal, 0);
     if constexpr (traversal.kPutsOff) run_tasks<A, Q>(traversal, 0);
     count.rows += traversal.count.rows;
     count.steps += traversal.count.steps;
