@@ -243,7 +243,7 @@ struct Traversal {
       const bool leaf = child & kLeafBit;
       uint32_t left = lengths[c];
       if constexpr (kSendsAlone)
-        if (left <= kWalkRays) {
+        if (left <= walks.longest) {
           for (uint32_t i = 0; i < left; ++i)
             if (!is_done(records[size_t(lists[c][i]) * kRecordWords + kRecordT], enters[c], i))
               send_ray<A, Q>(*this, lists[c][i], {child, enters[c][i]});
@@ -329,6 +329,7 @@ YAT_INLINE LaneCount trace_passes(const TreeView& tree, const RayStream& stream,
   }
   if constexpr (Pass::kSendsAlone) {
     walks.boxes = reinterpret_cast<WalkBox*>(take_bytes(free, RayWalks::bytes(tree.max_depth)));
+    walks.longest = tree.node_count > kFewNodes ? kWalkRays : 0;
     walks.places = RayWalks::places_for(tree.max_depth);
     walks.walk_of_slot = reinterpret_cast<uint8_t*>(take_bytes(free, stream.left_out));
     __builtin_memset(walks.walk_of_slot, RayWalks::kNoWalk, stream.left_out);

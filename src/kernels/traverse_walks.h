@@ -14,6 +14,8 @@ namespace yat::YAT_ISA {
 
 /// Longest list whose rays go alone.
 inline constexpr uint32_t kWalkRays = 4;
+/// A tree of so few nodes is always near: there is nothing to wait for.
+inline constexpr uint32_t kFewNodes = 8;
 /// Rays under way at a time.
 inline constexpr uint32_t kWalks = 16;
 /// Boxes that a stream may hand to a ray while that is under way.
@@ -31,7 +33,8 @@ struct RayWalks {
   WalkBox* boxes = nullptr;         ///< kWalks times `places`
   uint8_t* walk_of_slot = nullptr;  ///< or kNoWalk
   uint32_t places = 0;
-  uint32_t active = 0;  ///< of `order`: the first ones are under way
+  uint32_t longest = 0;  ///< list whose rays go alone
+  uint32_t active = 0;   ///< of `order`: the first ones are under way
   uint8_t order[kWalks] = {};
   uint32_t slot[kWalks] = {};
   uint32_t begin[kWalks] = {}, end[kWalks] = {};  ///< boxes to visit, the last first
