@@ -27,7 +27,7 @@ Parameters::Parameters(const Plugin& plugin, std::string what, Diagnostics& diag
     : plugin_(plugin), what_(std::move(what)), diagnostics_(diagnostics) {}
 
 const Parameter* Parameters::find(std::string_view name, ParameterType type) {
-  known_.push_back(name);
+  known_.emplace_back(name);
   // The last one counts; one of the right type before any other; a texture is asked for as such.
   const Parameter* other = nullptr;
   for (auto it = plugin_.parameters.rbegin(); it != plugin_.parameters.rend(); ++it) {
@@ -180,7 +180,7 @@ std::span<const int32_t> Parameters::integers(std::string_view name,
 }
 
 const Parameter* Parameters::texture(std::string_view name) {
-  known_.push_back(name);
+  known_.emplace_back(name);
   for (auto it = plugin_.parameters.rbegin(); it != plugin_.parameters.rend(); ++it)
     if (is(*it, name) && it->type == ParameterType::kTexture) {
       it->used = true;
@@ -202,7 +202,7 @@ SourceLoc Parameters::loc(std::string_view name) const {
 
 void Parameters::accept(std::initializer_list<std::string_view> names) {
   for (std::string_view name : names) {
-    known_.push_back(name);
+    known_.emplace_back(name);
     for (const Parameter& p : plugin_.parameters)
       if (is(p, name)) p.used = true;
   }
@@ -236,7 +236,8 @@ void Parameters::report_unused() {
     else
       diagnostics_.warning(
           p.loc, fmt::format("parameter \"{} {}\" of {} is not used{}", parameter_type_name(p.type),
-                             p.name, what_, known ? "" : did_you_mean(p.name, known_)));
+                             p.name, what_,
+                             known ? "" : did_you_mean(p.name, {known_.begin(), known_.end()})));
   }
 }
 

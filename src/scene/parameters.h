@@ -75,7 +75,7 @@ class Parameters {
   const Plugin& plugin_;
   std::string what_;
   Diagnostics& diagnostics_;
-  std::vector<std::string_view> known_;  ///< every name asked for: what a typo may have meant
+  std::vector<std::string> known_;  ///< every name asked for: what a typo may have meant
 };
 
 }  // namespace yat
