@@ -295,6 +295,10 @@ TEST_F(CompileLights, EvenSkiesAreLeftToChance) {
   options.light_choice = LightChoosing::kAuto;
   options.leaves_even_skies = false;
   EXPECT_EQ(asked(), std::pair(4u, 4u));
+  options = {};
+  options.light_choice = LightChoosing::kAll;
+  for (uint32_t i = 4; i <= kMostAskedLights; ++i) light(plugin("point", {}));
+  EXPECT_EQ(asked(), std::pair(kMostAskedLights - 1, kMostAskedLights + 1)) << "as auto";
 }
 
 TEST_F(CompileLights, UnevenSkiesAreAsked) {

@@ -71,6 +71,30 @@ TEST_P(Traverse, FindsTheNearestHitInLargerSoup) {
   compare(mesh, rays_through(mesh, 600, 1), "large soup");
 }
 
+// A ray that is alone in many lists while its stream goes on: it is handed more boxes than it can
+// hold, and has to visit them first.
+TEST_P(Traverse, ARayThatIsHandedManyBoxes) {
+  Rng rng(17);
+  Mesh mesh;
+  for (uint32_t i = 0; i < 4000; ++i) {
+    // Around the x axis, which no triangle touches.
+    const Vec c{uniform(rng, 0, 400), uniform(rng, .05, .4) * (i & 1 ? 1 : -1),
+                uniform(rng, -.4, .4)};
+    mesh.add(c, c + random_point(rng, .03), c + random_point(rng, .03));
+  }
+  mesh.done();
+  std::vector<Ray<Value>> rays(64, {-1, 0, 0, 1, 0, 0, kRayFar});
+  for (const double y : {-.2, .11, .3})
+    for (const double x : {1., -1.})
+      rays.push_back({x > 0 ? -1.f : 401.f, float(y), .1f, float(x), 0, 0, kRayFar});
+  for (const uint32_t width : widths()) {
+    const Tree tree = build(mesh, width);
+    const std::vector<Hit<Value>> hits = trace(kernels(), tree.view, rays);
+    for (uint32_t i = 0; i < rays.size(); ++i)
+      ASSERT_TRUE(same_bits(hits[i], brute_force(mesh, rays[i]))) << i;
+  }
+}
+
 TEST_P(Traverse, FindsTheNearestHitOnSteps) {
   for (const double angle : {0.0, 0.7}) {
     compare(stairs(24, angle), rays_through(stairs(24, angle), 1500, 3), "stairs");

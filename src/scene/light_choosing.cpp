@@ -60,7 +60,7 @@ void leave_half_to_places(std::vector<double>& power, uint32_t placed) {
 /// (docs/decisions.md).
 bool asks_all(const std::vector<double>& power, uint32_t placed, LightChoosing choosing) {
   constexpr double kLeastPower = 1. / 20;
-  if (choosing == LightChoosing::kAll) return power.size() > 1 && power.size() <= kMostAskedLights;
+  if (choosing == LightChoosing::kAll) return power.size() > 1;
   if (choosing != LightChoosing::kAuto || power.size() != 2 || placed == 2) return false;
   const auto [least, most] = std::minmax(power[0], power[1]);
   return least >= kLeastPower * (least + most);
@@ -87,9 +87,7 @@ bool is_even(const LightRow<Value>& row) {
 /// choose: their shadow rays are spared, or left to other lights. Where there is none, they are
 /// worth it to all but matte surfaces, whose directions are just what such a sky asks for
 /// (docs/decisions.md).
-bool leaves_skies(std::span<const LightRow<Value>> others, const CompileOptions& options,
-                  const Scene& scene) {
-  if (options.light_choice != LightChoosing::kAuto || !options.leaves_even_skies) return false;
+bool leaves_skies(std::span<const LightRow<Value>> others, const Scene& scene) {
   const auto shines = [&](const LightRow<Value>& row) {
     return light_power(row, scene.colour, double(scene.radius)) > 0;
   };
@@ -104,7 +102,10 @@ bool leaves_skies(std::span<const LightRow<Value>> others, const CompileOptions&
 
 void prepare_light_choice(std::vector<LightRow<Value>>& rows, const CompileOptions& options,
                           ThreadPool& pool, Scene& scene) {
-  const LightChoosing choosing = options.light_choice;
+  // --light-choice all goes on as auto where there are too many.
+  const bool too_many =
+      options.light_choice == LightChoosing::kAll && rows.size() > kMostAskedLights;
+  const LightChoosing choosing = too_many ? LightChoosing::kAuto : options.light_choice;
   const auto environments = std::stable_partition(
       rows.begin(), rows.end(),
       [](const LightRow<Value>& row) { return row.kind < kFirstEnvironment; });
@@ -115,8 +116,9 @@ void prepare_light_choice(std::vector<LightRow<Value>>& rows, const CompileOptio
                                           [](const LightRow<Value>& row) { return !is_even(row); });
   scene.first_environment = uint32_t(environments - rows.begin());
   const auto others = size_t(even - rows.begin());
-  scene.asked_lights =
-      uint32_t(leaves_skies({rows.data(), others}, options, scene) ? others : rows.size());
+  const bool leaves = choosing == LightChoosing::kAuto && options.leaves_even_skies &&
+                      leaves_skies({rows.data(), others}, scene);
+  scene.asked_lights = uint32_t(leaves ? others : rows.size());
   const std::span<LightRow<Value>> asked(rows.data(), scene.asked_lights);
   const auto placed = uint32_t(far - rows.begin()), all = uint32_t(asked.size());
   scene.first_far_light = placed;
@@ -130,7 +132,6 @@ void prepare_light_choice(std::vector<LightRow<Value>>& rows, const CompileOptio
   scene.every_light = asks_all(power, placed, choosing);
   if (scene.every_light || all == 0) return;
 
-  // --light-choice all goes on as auto where there are too many.
   const bool may = choosing != LightChoosing::kPower && choosing != LightChoosing::kUniform;
   const uint32_t least = choosing == LightChoosing::kTree ? 2 : kTreeLights;
   const bool by_tree = may && placed >= least && make_tree(asked, placed, pool, scene);

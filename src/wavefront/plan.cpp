@@ -204,9 +204,9 @@ Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions
   plan.instances = !scene.instances.empty();
   plan.instance_mask = !scene.instances.all_occlude;
 
-  // Light is sampled at vertices below max_depth only.
   if (plan.light_sampling == LightSampling::kLights && scene.asked_lights < scene.lights.size())
     throw std::logic_error("make_plan: some lights of the scene are found by chance alone");
+  // Light is sampled at vertices below max_depth only.
   plan.lights = scene.asked_lights > 0 && options.max_depth > 0 &&
                 (plan.light_sampling != LightSampling::kBsdf || has_unmet_lights(scene));
   if (plan.lights) plan.shadow_roulette = options.shadow_roulette;

@@ -114,7 +114,8 @@ struct PlanOptions {
 std::string_view camera_kind_name(CameraKind kind);
 std::string_view sampler_kind_name(SamplerKind kind);
 
-/// Throws std::logic_error when the table lacks a kernel that the scene needs.
+/// Throws std::logic_error when the table lacks a kernel that the scene needs, and for
+/// LightSampling::kLights when the scene has lights that are not asked (Scene::asked_lights).
 Plan make_plan(const Scene& scene, const KernelTable& kernels, const PlanOptions& options);
 
 /// One line per stage and kernel that will run, then what is skipped and why.
