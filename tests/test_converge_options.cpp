@@ -56,6 +56,13 @@ TEST(ConvergeOptions, VariantsLieOverWhatHoldsForAll) {
   EXPECT_NE(a.variants[0].scene_key, a.variants[2].scene_key);
 }
 
+// Light samples alone have to find what is else left to chance: even skies.
+TEST(ConvergeOptions, WaysToFindLightHaveScenesOfTheirOwn) {
+  const ConvergeArguments a = parse_converge_arguments(
+      {"s.lxs", "-o", "out", "--variant", "both:", "--variant", "lights: --light-sampling lights"});
+  EXPECT_NE(a.variants[0].scene_key, a.variants[1].scene_key);
+}
+
 TEST(ConvergeOptions, RoulettesAreThePlans) {
   const ConvergeArguments a = parse_converge_arguments(
       {"s.lxs", "-o", "out", "--variant", "off: --roulette off --shadow-roulette off", "--variant",

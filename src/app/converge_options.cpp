@@ -48,10 +48,11 @@ constexpr std::string_view kNotForVariants[] = {
     "--output", "--spp",   "--samples-range", "--time",     "--seed",    "--tonemap", "--exposure",
     "--aov",    "--stats", "--trace",         "--progress", "--verbose", "--quiet",   "--help"};
 
-/// Options that leave the compiled scene as it is. What is not here gets a scene of its own.
-constexpr std::string_view kOfThePlan[] = {
-    "--sampler",  "--sample-set",   "--max-depth", "--threads",        "--light-sampling",
-    "--roulette", "--noise-target", "--adaptive",  "--shadow-roulette"};
+/// Options that leave the compiled scene as it is. What is not here gets a scene of its own;
+/// --light-sampling, for one, decides whether even skies are asked.
+constexpr std::string_view kOfThePlan[] = {"--sampler",  "--sample-set",     "--max-depth",
+                                           "--threads",  "--roulette",       "--noise-target",
+                                           "--adaptive", "--shadow-roulette"};
 
 template <size_t N>
 bool among(std::string_view name, const std::string_view (&names)[N]) {
